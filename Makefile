@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+# Every command of the project. `make help` lists them.
+
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+PYTHON := .venv/bin/python
+export PATH := $(CURDIR)/.venv/bin:$(PATH)
+export PYTHONPATH := $(CURDIR)
+export PYTHONDONTWRITEBYTECODE := 1
+
+# Options of the commands below.
+CORE ?=
+SIM ?= icarus
+SEED ?=
+WAVES ?=
+FRAMES ?=
+ALTITUDE ?=
+FIRMWARE ?= qemu
+JOBS ?= 2
+
+.PHONY: help
+help: ## This list
+	@printf 'Touchdown: cores and firmware that land a drone on a marked pad.\n\n'
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@printf '\nOptions: CORE=name  SIM=icarus|verilator  SEED=n  WAVES=1  FRAMES=folder|video  ALTITUDE=csv|metres  FIRMWARE=qemu|host\n'
+	@printf 'Start with: make demo\n'
+
+.PHONY: setup
+setup: ## Install what is needed: Debian packages and .venv, pinned; does nothing when all is there
+	@scripts/setup.sh
+
+.PHONY: doctor
+doctor: ## Say which tools are here, which version each has and which is wanted
+	@python3 -m scripts.doctor
+
+.PHONY: demo
+demo: setup ## Photographs or the bundled clip through RTL and firmware to MAVLink bytes: table, pictures, report
+	@$(PYTHON) -m scripts.demo $(if $(FRAMES),--frames "$(FRAMES)") $(if $(ALTITUDE),--altitude "$(ALTITUDE)") --firmware "$(FIRMWARE)"
+
+.PHONY: test
+test: setup ## Everything that fits into 25 minutes on 2 cores
+	@$(PYTHON) -m pytest -n $(JOBS) -m "not full"
+
+.PHONY: test-full
+test-full: setup ## Everything
+	@$(PYTHON) -m pytest -n $(JOBS)
+
+.PHONY: sim
+sim: setup ## Test one core in one simulator: CORE=name [SIM=icarus|verilator] [SEED=n] [WAVES=1]
+	@$(PYTHON) -m tb.common.runner --core "$(CORE)" --sim "$(SIM)" $(if $(SEED),--seed "$(SEED)") $(if $(filter-out 0,$(WAVES)),--waves)
+
+.PHONY: vectors
+vectors: setup ## Golden input and output of one core from recorded frames: CORE=name [FRAMES=folder|video]
+	@$(PYTHON) -m scripts.vectors --core "$(CORE)" $(if $(FRAMES),--frames "$(FRAMES)")
+
+.PHONY: lint
+lint: setup ## verilator -Wall, Icarus -Wall and verible on the RTL; ruff on Python; warnings as errors on C
+	@$(PYTHON) -m scripts.lint
+
+.PHONY: regmap
+regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl
+	@$(PYTHON) -m scripts.regmap
+
+.PHONY: firmware
+firmware: setup ## Build build/firmware/touchdown.elf
+	@$(MAKE) --no-print-directory -C firmware elf
+
+.PHONY: clean
+clean: ## Remove build/ (not .venv)
+	@rm -rf build

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Static checks of every language in the project; the first finding of each tool is printed, all of them count."""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+from scripts.errors import UserError, run_main
+
+ROOT = Path(__file__).resolve().parent.parent
+WAIVERS = ROOT / "scripts" / "lint" / "verilator.vlt"
+VERIBLE_RULES = ROOT / "scripts" / "lint" / "verible.rules"
+
+
+def need(tool: str) -> str:
+    """Path of a tool.
+
+    Raises:
+        UserError: The tool is not on PATH.
+    """
+    path = shutil.which(tool)
+    if path is None:
+        raise UserError(f"{tool} is not installed: run `make setup`.")
+    return path
+
+
+def run(label: str, command: list[str], silent_is_clean: bool = True) -> bool:
+    """Run one check from the project root and print what it says; True when it is clean."""
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    output = (result.stdout + result.stderr).strip()
+    clean = result.returncode == 0 and not (silent_is_clean and output)
+    print(f"{'ok  ' if clean else 'BAD '} {label}", flush=True)
+    if not clean:
+        print(output)
+    return clean
+
+
+def cores() -> dict[str, tuple[str, list[str]]]:
+    """Each core's top level and its sources, from rtl/*/core.toml."""
+    found = {}
+    for path in sorted(ROOT.glob("rtl/*/core.toml")):
+        table = tomllib.loads(path.read_text())
+        found[path.parent.name] = (table.get("toplevel", path.parent.name), table["sources"])
+    return found
+
+
+def include_flags() -> list[str]:
+    """Where generated Verilog headers lie, for both simulators."""
+    return ["-Irtl/generated"]
+
+
+def lint_verilog() -> bool:
+    """Each core with the defaults of its parameters in verilator and Icarus; each file in verible."""
+    verilator, iverilog, verible = need("verilator"), need("iverilog"), need("verible-verilog-lint")
+    clean = True
+    for core, (top, sources) in cores().items():
+        flags = [*include_flags(), "--top-module", top, str(WAIVERS), *sources]
+        clean &= run(f"verilator {core}", [verilator, "--lint-only", "-Wall", "--language", "1364-2001", *flags])
+        flags = [*include_flags(), "-s", top, "-o", os.devnull, *sources]
+        clean &= run(f"icarus {core}", [iverilog, "-g2001", "-Wall", *flags])
+    files = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("rtl/**/*.v"))
+    clean &= run("verible", [verible, f"--rules_config={VERIBLE_RULES}", *files])
+    return clean
+
+
+def lint_python() -> bool:
+    """Ruff's rules and format over everything."""
+    ruff = need("ruff")
+    clean = run("ruff check", [ruff, "check", "--quiet", "."])
+    return run("ruff format", [ruff, "format", "--check", "--quiet", "."]) and clean
+
+
+def main() -> int:
+    """Entry point of `make lint`."""
+    parser = argparse.ArgumentParser(prog="make lint", description=__doc__)
+    parser.parse_args()
+    results = [lint_verilog(), lint_python()]
+    if not all(results):
+        print("touchdown: lint found what is printed above; mend it or waive it with a reason.", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    run_main(main)
