@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The frame contract matrix: every scene x every stall pattern, for cores with one video input and one video output.
+
+A test module needs no more than this::
+
+    CORE = VideoCore(golden=erode3x3, bits_in=1, reach=1, limits=SizeLimits(2, 1, MAX_WIDTH, MAX_HEIGHT))
+
+    @cocotb.test()
+    @cocotb.parametrize(scene=list(SCENES), stall=list(STALLS))
+    async def frame_contract(dut, scene, stall):
+        await run_scene(dut, CORE, scene, stall)
+
+Cores with other outputs use `SCENES[name](rng, core)` for the beats and `contract.sent_frames` for what they hold.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from random import Random, getrandbits
+
+import numpy as np
+from cocotb.handle import HierarchyObject
+
+from tb.common.compare import check_frame, check_markers
+from tb.common.contract import SentFrame, SizeLimits, sent_frames
+from tb.common.patterns import random_frame, structured_frames
+from tb.common.run import where
+from tb.common.stream import Beat, StreamBench, Taken, frame_beats, split_frames, stalls
+
+
+@dataclass(frozen=True)
+class VideoCore:
+    """A core with one video stream in and one out, pixel for pixel.
+
+    Args:
+        golden: integer array (height, width) -> the same shape.
+        bits_in: width of an input pixel.
+        reach: how many rows and columns around a pixel its output depends on (0 pointwise, 1 for 3x3, 2 for 5x5).
+        limits: legal frame sizes.
+    """
+
+    golden: Callable[[np.ndarray], np.ndarray]
+    bits_in: int
+    reach: int
+    limits: SizeLimits
+
+
+# (idle fraction, backpressure fraction)
+STALLS = {"full_speed": (0.0, 0.0), "idle": (0.5, 0.0), "backpressure": (0.0, 0.5), "idle_backpressure": (0.4, 0.4)}
+
+Scene = Callable[[Random, VideoCore], list[Beat]]
+
+
+def random_size(rng: Random, core: VideoCore) -> tuple[int, int]:
+    """Return a small legal frame size, odd and even ones alike."""
+    limits = core.limits
+    width = rng.randint(max(limits.min_width, 3), min(limits.max_width, 17))
+    return width, rng.randint(max(limits.min_height, 3), min(limits.max_height, 11))
+
+
+def _frame(rng: Random, core: VideoCore, size: tuple[int, int] | None = None) -> list[Beat]:
+    width, height = size or random_size(rng, core)
+    return frame_beats(random_frame(rng, width, height, core.bits_in))
+
+
+def _around(rng: Random, core: VideoCore, middle: list[Beat]) -> list[Beat]:
+    """Put beats between two good frames, the second twice so that it is followed by another."""
+    return _frame(rng, core) + middle + _frame(rng, core) + _frame(rng, core)
+
+
+def _clean(rng: Random, core: VideoCore) -> list[Beat]:
+    size = random_size(rng, core)
+    return [beat for _ in range(4) for beat in _frame(rng, core, size)]
+
+
+def _structured(rng: Random, core: VideoCore) -> list[Beat]:
+    width, height = random_size(rng, core)
+    frames = structured_frames(rng, width, height, core.bits_in)
+    return [beat for frame in frames.values() for beat in frame_beats(frame)]
+
+
+def _sizes(rng: Random, core: VideoCore) -> list[Beat]:
+    limits = core.limits
+    widths = [limits.min_width + step for step in range(5)]
+    heights = [limits.min_height + step for step in range(5)]
+    sizes = [(width, height) for width in widths for height in heights]
+    if limits.max_width * limits.max_height <= 4096:
+        sizes += [(limits.max_width, limits.max_height)] * 2
+    rng.shuffle(sizes)
+    return [beat for size in sizes if limits.allow(*size) for beat in _frame(rng, core, size)]
+
+
+def _beats_before_first(rng: Random, core: VideoCore) -> list[Beat]:
+    stray = [Beat(rng.getrandbits(core.bits_in), 0, rng.getrandbits(1)) for _ in range(20)]
+    return stray + _frame(rng, core) + _frame(rng, core)
+
+
+def _extra_beats(rng: Random, core: VideoCore) -> list[Beat]:
+    extra = [Beat(rng.getrandbits(core.bits_in), 0, rng.getrandbits(1)) for _ in range(rng.randint(1, 30))]
+    return _around(rng, core, extra)
+
+
+def _wrong_line(lengthen: bool) -> Scene:
+    def scene(rng: Random, core: VideoCore) -> list[Beat]:
+        width, height = random_size(rng, core)
+        lines = [_frame(rng, core, (width, height))[y * width : (y + 1) * width] for y in range(height)]
+        bad = rng.randrange(height)
+        if lengthen:
+            extra = [Beat(rng.getrandbits(core.bits_in), 0, 0) for _ in range(rng.randint(1, width))]
+            lines[bad] = lines[bad][:-1] + extra + lines[bad][-1:]
+            lines[bad] = [beat._replace(last=int(i == len(lines[bad]) - 1)) for i, beat in enumerate(lines[bad])]
+        else:
+            lines[bad] = lines[bad][: rng.randint(1, width - 1)]
+            lines[bad][-1] = lines[bad][-1]._replace(last=1)
+        return _around(rng, core, [beat for line in lines for beat in line])
+
+    return scene
+
+
+def _cut(at_line: bool) -> Scene:
+    def scene(rng: Random, core: VideoCore) -> list[Beat]:
+        width, height = random_size(rng, core)
+        keep = width * rng.randint(1, height - 1) if at_line else rng.randint(1, width * height - 1)
+        return _around(rng, core, _frame(rng, core, (width, height))[:keep])
+
+    return scene
+
+
+def _starts_in_a_row(rng: Random, core: VideoCore) -> list[Beat]:
+    size = random_size(rng, core)
+    return _around(rng, core, [_frame(rng, core, size)[0] for _ in range(rng.randint(2, 6))])
+
+
+def _illegal_size(rng: Random, core: VideoCore) -> list[Beat]:
+    limits = core.limits
+    sizes = [
+        (limits.max_width + 1, limits.min_height),
+        (limits.min_width, limits.max_height + 1),
+        (limits.min_width - 1, limits.min_height),
+        (limits.min_width, limits.min_height - 1),
+        (65535, 65535),
+    ]
+    beats = []
+    for size in sizes:
+        good = _frame(rng, core)
+        bad = _frame(rng, core)
+        beats += [bad[0]._replace(size=size), *bad[1:], *good]
+    return beats
+
+
+def _noise(rng: Random, core: VideoCore) -> list[Beat]:
+    """Frames in which markers flip and beats vanish or double at random, each bad one followed by a good one."""
+    beats: list[Beat] = []
+    for _ in range(8):
+        for beat in _frame(rng, core):
+            fate = rng.random()
+            if fate < 0.02:
+                continue
+            if fate < 0.03:
+                beat = beat._replace(last=1 - beat.last)  # noqa: PLW2901
+            elif fate < 0.04:
+                beats.append(beat._replace(size=None))
+            elif fate < 0.045:
+                beat = beat._replace(user=1 - beat.user)  # noqa: PLW2901
+            beats.append(beat)
+        beats += _frame(rng, core)
+    return beats
+
+
+SCENES: dict[str, Scene] = {
+    "clean": _clean,
+    "structured": _structured,
+    "sizes": _sizes,
+    "beats_before_first": _beats_before_first,
+    "extra_beats": _extra_beats,
+    "short_line": _wrong_line(lengthen=False),
+    "long_line": _wrong_line(lengthen=True),
+    "cut_in_line": _cut(at_line=False),
+    "missing_lines": _cut(at_line=True),
+    "starts_in_a_row": _starts_in_a_row,
+    "illegal_size": _illegal_size,
+    "noise": _noise,
+}
+
+
+def _seeded(name: str) -> Random:
+    # cocotb seeds `random` from the seed of the run and the name of the test.
+    return Random(f"{name} {getrandbits(64)}")
+
+
+async def run_scene(dut: HierarchyObject, core: VideoCore, scene: str, stall: str) -> None:
+    """Send one scene and check output frames, markers, `frame_error` count and the protocol."""
+    rng = _seeded(scene)
+    bench = await start(dut, rng, stall)
+    await send_and_check(bench, core, SCENES[scene](rng, core))
+
+
+async def run_reset(dut: HierarchyObject, core: VideoCore, stall: str) -> None:
+    """Reset at random times within a frame; after each, only what was sent since may come out."""
+    rng = _seeded("reset")
+    bench = await start(dut, rng, stall)
+    for _ in range(5):
+        bench.source.send_beats(_clean(rng, core))
+        await bench.cycles(rng.randint(1, 400))
+        await bench.reset(rng.randint(1, 3))
+        bench.sink.taken.clear()
+        if bench.errors:
+            bench.errors.count = 0
+        await send_and_check(bench, core, _frame(rng, core) + _frame(rng, core))
+        bench.sink.taken.clear()
+
+
+async def start(dut: HierarchyObject, rng: Random, stall: str) -> StreamBench:
+    """Return a bench after reset with the named stall pattern."""
+    bench = StreamBench(dut, rng)
+    idle, backpressure = STALLS[stall]
+    bench.source.pause = stalls(Random(rng.getrandbits(64)), idle)
+    bench.sink.pause = stalls(Random(rng.getrandbits(64)), backpressure)
+    await bench.reset()
+    return bench
+
+
+async def send_and_check(bench: StreamBench, core: VideoCore, beats: list[Beat]) -> None:
+    """Send beats and check all that comes out until the core is quiet."""
+    frames, errors = sent_frames(beats, core.limits)
+    bench.source.send_beats(beats)
+    flush = sum((core.reach + 1) * (frame.width + 4) for frame in frames)
+    await bench.drain(quiet=60 + 8 * core.limits.min_width, limit=1000 + 12 * (len(beats) + flush))
+    check_frames(split_frames(bench.sink.taken), frames, core)
+    assert bench.errors is None or bench.errors.count == errors, (
+        f"frame_error pulsed {bench.errors.count} times, expected {errors}; {where()}"
+    )
+
+
+def check_frames(received: list[list[Taken]], sent: list[SentFrame], core: VideoCore) -> None:
+    """Assert that each complete frame came out whole, and of each cut one at most what its pixels determine."""
+    remaining = list(received)
+    for index, frame in enumerate(sent):
+        name = f"frame {index} of {len(sent)}"
+        expected = core.golden(frame.image())
+        if frame.complete:
+            assert remaining, f"{name} ({frame.width}x{frame.height}) did not come; {where()}"
+            check_frame(remaining.pop(0), expected, name, core.reach)
+        elif remaining and _is_start_of(remaining[0], frame, core):
+            beats = remaining.pop(0)
+            check_markers(beats, frame.width, f"cut {name}")
+    assert not remaining, f"{len(remaining)} frames came that nobody sent, the first {remaining[0][:5]}; {where()}"
+
+
+def _is_start_of(beats: list[Taken], frame: SentFrame, core: VideoCore) -> bool:
+    """Return whether the beats are a start of the cut frame that its pixels determine."""
+    expected = core.golden(frame.image()).ravel()
+    for index, beat in enumerate(beats):
+        y, x = divmod(index, frame.width)
+        newest = min(y + core.reach, frame.height - 1) * frame.width + min(x + core.reach, frame.width - 1)
+        if newest >= len(frame.pixels) or beat.data != expected[index]:
+            return False
+    return True

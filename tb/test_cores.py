@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the cocotb tests of every core in every config and simulator. The environment variable SEED sets the seed."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from scripts.errors import UserError
+from tb.common.cores import core_names, load_core
+from tb.common.runner import SIMULATORS, default_seed, run_core
+
+
+def runs() -> Iterator[object]:
+    """Yield one pytest parameter a run; a core that cannot be read gives one item, which then fails."""
+    for name in core_names():
+        try:
+            count = len(load_core(name).configs)
+        except UserError:
+            count = 1
+        for index in range(count):
+            for sim in SIMULATORS:
+                yield pytest.param(name, index, sim, id=f"{name}-{index}-{sim}")
+
+
+@pytest.mark.parametrize(("name", "index", "sim"), runs())
+def test_core(name: str, index: int, sim: str) -> None:
+    seed = default_seed()
+    (result,) = run_core(name, sim, index, seed=seed)
+    print(f"seed {seed}: {result.summary}")
+    assert result.passed, f"{result.summary}\nlog: {result.log}\nreplay: {result.replay}"
