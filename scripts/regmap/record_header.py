@@ -21,6 +21,7 @@ def export(register_map: RegisterMap) -> str:
         f"// Generated from {SOURCE} by python -m scripts.regmap. Do not edit.",
         "// Include inside a module. *_LSB counts bits from bit 0 of the 512-bit header or object.",
         *(f"localparam integer {name} = {value};" for name, value in constants.items()),
+        *_values("HEADER", register_map.header),
     ]
     return "\n".join(lines) + "\n"
 
@@ -35,6 +36,14 @@ def _positions(prefix: str, block: Block) -> dict[str, int]:
             name = f"{prefix}_{register.name}_{field.name.upper()}"
             if field.width == 1:
                 positions[f"{name}_LSB"] = register.offset * 8 + field.lsb
-            if field.reset:
-                positions[f"{name}_VALUE"] = field.reset
     return positions
+
+
+def _values(prefix: str, block: Block) -> list[str]:
+    return [
+        f"localparam [{field.width - 1}:0] {prefix}_{register.name}_{field.name.upper()}_VALUE = "
+        f"{field.width}'h{field.reset:X};"
+        for register in block.registers
+        for field in register.fields
+        if field.reset
+    ]
