@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+# C++ side of the co-simulation. sim/cosim/build.py calls this from the project
+# root with RTL= the sources of landing_core.
+
+BUILD := build/cosim
+MODEL := $(BUILD)/model
+VERILATOR_ROOT := $(shell verilator --getenv VERILATOR_ROOT)
+
+CXX := $(if $(shell command -v ccache),ccache )g++
+CXXFLAGS := -std=c++17 -O2 -fPIC -Wall -Wextra -Werror -Wno-pedantic -I. -isystem $(MODEL) -Isim/verilated \
+            -isystem $(VERILATOR_ROOT)/include -isystem $(VERILATOR_ROOT)/include/vltstd -MMD -MP
+LDLIBS := -lpthread
+
+SHARED := frame_list video_source axi_memory stage_taps landing_model
+SHARED_OBJECTS := $(SHARED:%=$(BUILD)/obj/%.o)
+MODEL_LIBS := $(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a
+
+# verilator itself sees to it that unchanged sources change nothing.
+.PHONY: plugin host stages
+plugin: $(BUILD)/touchdown-plugin.so
+host: $(BUILD)/touchdown-host
+stages: $(BUILD)/landing-stages
+
+$(MODEL)/Vlanding_core.mk: $(RTL) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wildcard rtl/generated/*.vh)
+	@mkdir -p $(@D)
+	verilator --cc --quiet-stats -O3 --x-assign fast --x-initial fast --no-assert --no-timing --language 1364-2005 \
+	    -CFLAGS -fPIC -Irtl/generated --Mdir $(MODEL) --prefix Vlanding_core --top-module landing_core \
+	    sim/verilated/taps.vlt $(RTL)
+	@touch $@
+
+$(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a &: $(MODEL)/Vlanding_core.mk
+	+$(MAKE) -C $(MODEL) -f Vlanding_core.mk OPT_FAST=-O3 OPT_GLOBAL=-O2 $(if $(shell command -v ccache),OBJCACHE=ccache) \
+	    libVlanding_core.a libverilated.a
+	@touch $(MODEL_LIBS)
+
+$(BUILD)/obj/%.o: sim/verilated/%.cpp $(MODEL)/Vlanding_core.mk
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -c -o $@ $<
+
+$(BUILD)/obj/%.o: sim/cosim/%.cpp $(MODEL)/Vlanding_core.mk
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -c -o $@ $<
+
+$(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_plugin.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
+	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
+
+$(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(SHARED_OBJECTS) $(MODEL_LIBS)
+	$(CXX) -o $@ $^ $(LDLIBS)
+
+-include $(wildcard $(BUILD)/obj/*.d)

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes every beat that passes between the stages of landing_core to a file a
+// stage, for comparison with the golden models.
+//
+// <folder>/<stage>.bin holds one entry a handshake: the payload, little endian,
+// of the bytes given in STAGE_BYTES, then one byte {tlast, tuser}.
+// sim/compare_stages.py reads it.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+class Vlanding_core___024root;
+
+namespace touchdown {
+
+class StageTaps {
+public:
+    // Throws std::runtime_error if a file cannot be made.
+    explicit StageTaps(const std::string& folder);
+    ~StageTaps();
+    StageTaps(const StageTaps&) = delete;
+    StageTaps& operator=(const StageTaps&) = delete;
+
+    // The values just before an edge of clk.
+    void sample(const Vlanding_core___024root& root);
+
+private:
+    void beat(size_t stage, const void* payload, bool first, bool last);
+
+    std::vector<std::FILE*> files_;
+};
+
+}  // namespace touchdown

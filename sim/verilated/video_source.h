@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera: shows a frame list with the timing of 720p60 (CEA-861: 1650 x 750
+// pixel clocks in all, sync pulses active high).
+//
+// Other frame sizes keep the blanking of 720p60. `frame_clocks` lengthens the
+// vertical front porch by whole lines until a frame takes at least that long.
+#pragma once
+
+#include <cstdint>
+
+#include "frame_list.h"
+
+namespace touchdown {
+
+struct VideoTiming {
+    uint32_t h_front = 110;
+    uint32_t h_sync = 40;
+    uint32_t h_back = 220;
+    uint32_t v_front = 5;
+    uint32_t v_sync = 5;
+    uint32_t v_back = 20;
+    uint64_t frame_clocks = 0;
+};
+
+struct VideoSample {
+    uint32_t rgb = 0;  // {R, G, B}
+    bool de = false;
+    bool hsync = false;
+    bool vsync = false;
+};
+
+class VideoSource {
+public:
+    VideoSource(const FrameList& frames, const VideoTiming& timing);
+
+    void start() { running_ = true; }
+    bool finished() const { return index_ == frames_.shown(); }
+    // The frame on the wire, or the last one when all were shown.
+    uint32_t index() const { return finished() ? index_ - 1 : index_; }
+
+    // What the camera drives for the next pixel clock. `first` and `last` say
+    // whether it is the first or the last pixel of frame index().
+    VideoSample next(bool& first, bool& last);
+
+private:
+    const FrameList& frames_;
+    VideoTiming timing_;
+    uint32_t line_clocks_;
+    uint32_t lines_;
+    bool running_ = false;
+    uint32_t index_ = 0;
+    uint32_t column_ = 0;  // 0 = first pixel of the line
+    uint32_t line_ = 0;    // 0 = vertical sync starts
+    const uint8_t* pixel_ = nullptr;
+};
+
+}  // namespace touchdown
