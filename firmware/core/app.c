@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app.h"
+
+#include <string.h>
+
+#include "pad_geometry.h"
+#include "pad_pose.h"
+
+#define HEARTBEAT_PERIOD_US 1000000U
+#define DISTANCE_PERIOD_US 50000U
+#define CAMERA_LOST_US 2000000U
+#define PAD_ARRAY_ID 1U
+#define RING_WIDTH_M (2.0 * RING_OUTER_RADIUS_MM / 1000.0)
+
+static void send(struct app *app, enum app_link link, const uint8_t *bytes, size_t size)
+{
+    app->port.write(app->port.context, link, bytes, size);
+}
+
+static void say(struct app *app, enum mavlink_out_severity severity, const char *text)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+
+    send(app, APP_LINK_GROUND, bytes, mavlink_out_status_text(&app->out[APP_LINK_GROUND], severity, text, bytes));
+}
+
+void app_init(struct app *app, const struct app_port *port, uint64_t now_us, const char *fault)
+{
+    memset(app, 0, sizeof *app);
+    app->port = *port;
+    app->camera = camera_default;
+    app->fault = fault;
+    app->next_heartbeat_us = now_us;
+    app->next_distance_us = now_us;
+    app->last_record_us = now_us;
+    for (int link = 0; link < APP_LINKS; link++) {
+        mavlink_in_init(&app->in[link]);
+    }
+    say(app, MAVLINK_OUT_INFO, "Touchdown: started");
+}
+
+static void send_landing_target(struct app *app, const struct landing_record *record, const struct pad_pose *pose,
+                                const struct altitude *altitude)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+    const struct mavlink_out_target target = {
+        .time_us = record->header.start_time_us,
+        .right = pose->ray.right,
+        .forward = pose->ray.forward,
+        .height_m = altitude->height_m,
+        .pad_width_m = RING_WIDTH_M,
+    };
+
+    send(app, APP_LINK_AUTOPILOT, bytes,
+         mavlink_out_landing_target(&app->out[APP_LINK_AUTOPILOT], &target, bytes));
+}
+
+static void send_pad_array(struct app *app, const struct landing_record *record, const struct pad_shapes *pad,
+                           const struct pad_pose *pose, const struct altitude *altitude)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+    float values[APP_PAD_FIELDS] = {0.0F};
+    uint32_t flags = record->header.flags & 0xFU;
+
+    flags |= altitude->from_lidar ? APP_FLAG_ALTITUDE_LIDAR : 0U;
+    flags |= altitude->from_pad ? APP_FLAG_ALTITUDE_PAD : 0U;
+    flags |= altitude->lidar_implausible ? APP_FLAG_LIDAR_IMPLAUSIBLE : 0U;
+    if (pose != NULL) {
+        flags |= pad->has_ring ? APP_FLAG_RING : 0U;
+        flags |= pad->has_small_ring ? APP_FLAG_SMALL_RING : 0U;
+        values[APP_PAD_FOUND] = 1.0F;
+        values[APP_PAD_X_PX] = (float)pose->x_px;
+        values[APP_PAD_Y_PX] = (float)pose->y_px;
+        values[APP_PAD_ANGLE_DEG] = (float)pose->angle_deg;
+        values[APP_PAD_RIGHT_M] = (float)(pose->ray.right * altitude->height_m);
+        values[APP_PAD_FORWARD_M] = (float)(pose->ray.forward * altitude->height_m);
+        values[APP_PAD_ERROR] = (float)pad->error;
+        values[APP_PAD_SIZE_ALTITUDE_M] = (float)pose->height_m;
+    }
+    values[APP_PAD_ALTITUDE_M] = (float)altitude->height_m;
+    values[APP_PAD_FRAME_NUMBER] = (float)record->header.frame_number;
+    values[APP_PAD_OBJECT_COUNT] = (float)record->header.object_count;
+    values[APP_PAD_FLAGS] = (float)flags;
+    send(app, APP_LINK_GROUND, bytes,
+         mavlink_out_float_array(&app->out[APP_LINK_GROUND], record->header.start_time_us, PAD_ARRAY_ID, "PAD", values,
+                                 APP_PAD_FIELDS, bytes));
+}
+
+int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us)
+{
+    struct pad_shapes pad;
+    struct pad_pose pose;
+    const int error = record_check(record, size_bytes);
+
+    if (error != 0) {
+        app->records_rejected++;
+        return error;
+    }
+    app->last_record_us = now_us;
+    const struct lidar_reading lidar = {
+        .valid = (record->header.flags & LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK) != 0U,
+        .distance_mm = record->header.altitude_mm,
+        .age_us = record->header.altitude_age_us,
+    };
+    const bool found =
+        classify_pad(record, &app->scratch, &pad) == 0 && pad_pose_estimate(&pad, &app->camera, &pose) == 0;
+    const struct altitude altitude = fusion_altitude(&lidar, found ? &pose : NULL);
+
+    if (found) {
+        send_landing_target(app, record, &pose, &altitude);
+    }
+    send_pad_array(app, record, found ? &pad : NULL, found ? &pose : NULL, &altitude);
+    return 0;
+}
+
+void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us)
+{
+    for (size_t i = 0; i < size; i++) {
+        int64_t request_ns;
+        if (mavlink_in_timesync_request(&app->in[link], bytes[i], &request_ns)) {
+            uint8_t reply[MAVLINK_OUT_MAX_BYTES];
+            send(app, link, reply, mavlink_out_timesync_reply(&app->out[link], now_us, request_ns, reply));
+        }
+    }
+}
+
+// True once a period. A caller that comes late gets one turn, not a burst.
+static bool due(uint64_t *next_us, uint64_t now_us, uint64_t period_us)
+{
+    if (now_us < *next_us) {
+        return false;
+    }
+    *next_us += period_us;
+    if (*next_us <= now_us) {
+        *next_us = now_us + period_us;
+    }
+    return true;
+}
+
+static void watch_camera(struct app *app, uint64_t now_us)
+{
+    const bool lost = now_us > app->last_record_us && now_us - app->last_record_us > CAMERA_LOST_US;
+
+    if (lost && !app->camera_lost) {
+        say(app, MAVLINK_OUT_WARNING, "Touchdown: no frames, check camera and FRAME_SIZE");
+    }
+    if (!lost && app->camera_lost) {
+        say(app, MAVLINK_OUT_INFO, "Touchdown: frames again");
+    }
+    app->camera_lost = lost;
+}
+
+void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lidar)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+
+    if (due(&app->next_heartbeat_us, now_us, HEARTBEAT_PERIOD_US)) {
+        for (int link = 0; link < APP_LINKS; link++) {
+            send(app, (enum app_link)link, bytes,
+                 mavlink_out_heartbeat(&app->out[link], app->fault == NULL, bytes));
+        }
+        if (app->fault != NULL) {
+            say(app, MAVLINK_OUT_CRITICAL, app->fault);
+        }
+    }
+    if (lidar != NULL && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {
+        send(app, APP_LINK_AUTOPILOT, bytes,
+             mavlink_out_distance_sensor(&app->out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
+                                         fusion_lidar_usable(lidar), lidar->distance_mm, bytes));
+    }
+    if (app->fault == NULL) {
+        watch_camera(app, now_us);
+    }
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the firmware does, without the board: records, time and bytes in,
+// MAVLink bytes out. The board and the host library differ only in the port.
+#ifndef TOUCHDOWN_APP_H
+#define TOUCHDOWN_APP_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "camera.h"
+#include "classify.h"
+#include "fusion.h"
+#include "mavlink_in.h"
+#include "mavlink_out.h"
+#include "record.h"
+
+enum app_link { APP_LINK_AUTOPILOT, APP_LINK_GROUND, APP_LINKS };
+
+struct app_port {
+    // Takes a whole message or drops it; never blocks, never sends a part.
+    void (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
+    void *context;
+};
+
+// What each element of the ground station's DEBUG_FLOAT_ARRAY "PAD" holds.
+enum app_pad_field {
+    APP_PAD_FOUND,         // 1 or 0; with 0 the fields that describe the pad are 0
+    APP_PAD_X_PX,          // image of the ring's centre
+    APP_PAD_Y_PX,
+    APP_PAD_ANGLE_DEG,     // 0 = square above rectangle, clockwise
+    APP_PAD_ALTITUDE_M,    // 0 = not known
+    APP_PAD_RIGHT_M,       // pad from the camera, body axes
+    APP_PAD_FORWARD_M,
+    APP_PAD_FRAME_NUMBER,  // exact below 2^24
+    APP_PAD_OBJECT_COUNT,
+    APP_PAD_FLAGS,         // APP_FLAG_*
+    APP_PAD_ERROR,         // 0 = the shapes' ratios are ideal
+    APP_PAD_SIZE_ALTITUDE_M, // altitude from the pad's size alone
+    APP_PAD_FIELDS
+};
+
+// Bits of APP_PAD_FLAGS. The low four are the flags of the record.
+#define APP_FLAG_RING 0x10U              // the ring was seen
+#define APP_FLAG_SMALL_RING 0x20U        // the small ring was seen
+#define APP_FLAG_ALTITUDE_LIDAR 0x40U    // the LiDAR counts in the altitude
+#define APP_FLAG_ALTITUDE_PAD 0x80U      // the pad's size counts in the altitude
+#define APP_FLAG_LIDAR_IMPLAUSIBLE 0x100U
+
+struct app {
+    struct app_port port;
+    struct mavlink_out out[APP_LINKS];
+    struct mavlink_in in[APP_LINKS];
+    struct camera camera;
+    const char *fault;
+    uint64_t next_heartbeat_us;
+    uint64_t next_distance_us;
+    uint64_t last_record_us;
+    bool camera_lost;
+    uint32_t records_rejected;
+    struct classify_scratch scratch;
+};
+
+// `fault` is NULL, or one sentence of at most 50 characters that says why
+// landing cannot work: then HEARTBEAT is CRITICAL and the sentence is repeated.
+void app_init(struct app *app, const struct app_port *port, uint64_t now_us, const char *fault);
+
+// One record of `size_bytes`, as copied. Returns 0, or the RECORD_E_* for which
+// it was rejected.
+int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us);
+
+// Bytes that arrived on a link.
+void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us);
+
+// To be called at least every 5 ms. `lidar` is NULL when there is no LiDAR
+// hardware: then nothing claims a distance and the autopilot sees "no data".
+void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lidar);
+
+#endif

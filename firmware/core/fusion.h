@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// One altitude from two: the LiDAR's and the one that the pad's known size implies.
+#ifndef TOUCHDOWN_FUSION_H
+#define TOUCHDOWN_FUSION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "pad_pose.h"
+
+#define FUSION_LIDAR_MAX_AGE_US 200000U
+#define FUSION_LIDAR_MIN_MM 50U
+#define FUSION_LIDAR_MAX_MM 40000U
+
+struct lidar_reading {
+    bool valid; // the hardware calls it valid and fresh
+    uint32_t distance_mm;
+    uint32_t age_us;
+};
+
+struct altitude {
+    double height_m; // camera above the pad (or ground) along body down; 0 = not known
+    bool from_lidar;
+    bool from_pad;
+    bool lidar_implausible; // a fresh reading contradicts the pad's size and was left out
+};
+
+// True when the reading may be used at all: valid, fresh, within the sensor's range.
+bool fusion_lidar_usable(const struct lidar_reading *lidar);
+
+// `pose` is NULL when no pad is in sight.
+struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct pad_pose *pose);
+
+#endif

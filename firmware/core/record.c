@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define WORD_BYTES sizeof(uint32_t)
+#define HEADER_WORDS (sizeof(struct landing_result_header) / WORD_BYTES)
+#define OBJECT_WORDS (sizeof(struct landing_object) / WORD_BYTES)
+#define FRAME_NUMBER_WORD (offsetof(struct landing_result_header, frame_number) / WORD_BYTES)
+
+static void copy_words(unsigned char *to, const volatile uint32_t *from, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t word = from[i];
+        memcpy(to + i * WORD_BYTES, &word, WORD_BYTES);
+    }
+}
+
+int record_copy_from_ring(struct landing_record *copy, const volatile uint32_t *source)
+{
+    // The hardware zeroes the frame number before it touches a buffer and writes
+    // it after everything else: the same number before and after the copy means
+    // that nothing was written in between.
+    const uint32_t number = source[FRAME_NUMBER_WORD];
+
+    copy_words((unsigned char *)&copy->header, source, HEADER_WORDS);
+    if (copy->header.object_count > LANDING_RECORD_MAX_OBJECTS) {
+        return source[FRAME_NUMBER_WORD] == number ? RECORD_E_COUNT : RECORD_E_TORN;
+    }
+    copy_words((unsigned char *)copy->objects, source + HEADER_WORDS, copy->header.object_count * OBJECT_WORDS);
+    if (number == 0U || copy->header.frame_number != number || source[FRAME_NUMBER_WORD] != number) {
+        return RECORD_E_TORN;
+    }
+    return (int)(sizeof copy->header + copy->header.object_count * sizeof copy->objects[0]);
+}
+
+static bool within(uint64_t value, uint64_t least, uint64_t greatest)
+{
+    return value >= least && value <= greatest;
+}
+
+static bool object_is_sane(const struct landing_object *object, uint32_t width_px, uint32_t height_px)
+{
+    const uint64_t area = object->area;
+    const uint64_t x_min = object->box_min_x;
+    const uint64_t x_max = object->box_max_x;
+    const uint64_t y_min = object->box_min_y;
+    const uint64_t y_max = object->box_max_y;
+
+    if (x_min > x_max || y_min > y_max || x_max >= width_px || y_max >= height_px) {
+        return false;
+    }
+    if (!within(area, 1U, (x_max - x_min + 1U) * (y_max - y_min + 1U))) {
+        return false;
+    }
+    // No product below overflows: coordinates have 13 bits, an area 26.
+    return within(object->sum_x, area * x_min, area * x_max) && within(object->sum_y, area * y_min, area * y_max) &&
+           within(object->sum_xx, area * x_min * x_min, area * x_max * x_max) &&
+           within(object->sum_yy, area * y_min * y_min, area * y_max * y_max) &&
+           within(object->sum_xy, area * x_min * y_min, area * x_max * y_max);
+}
+
+int record_check(const struct landing_record *record, size_t size_bytes)
+{
+    const struct landing_result_header *header = &record->header;
+
+    if (size_bytes < sizeof *header) {
+        return RECORD_E_SIZE;
+    }
+    if (header->id_magic != LANDING_HEADER_ID_MAGIC_RESET || header->id_version != LANDING_HEADER_ID_VERSION_RESET) {
+        return RECORD_E_MAGIC;
+    }
+    if (header->frame_number == 0U) {
+        return RECORD_E_TORN;
+    }
+    if (header->object_count > LANDING_RECORD_MAX_OBJECTS) {
+        return RECORD_E_COUNT;
+    }
+    if (size_bytes < sizeof *header + header->object_count * sizeof record->objects[0]) {
+        return RECORD_E_SIZE;
+    }
+    if (!within(header->frame_size_width, 1U, RECORD_MAX_FRAME_SIDE_PX) ||
+        !within(header->frame_size_height, 1U, RECORD_MAX_FRAME_SIDE_PX)) {
+        return RECORD_E_FRAME;
+    }
+    for (uint32_t i = 0; i < header->object_count; i++) {
+        if (!object_is_sane(&record->objects[i], header->frame_size_width, header->frame_size_height)) {
+            return RECORD_E_OBJECT;
+        }
+    }
+    return 0;
+}
