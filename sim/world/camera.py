@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The camera of the rendered world: r = 2 f tan(theta / 2), looking down.
+
+Camera axes: x right, y down in the image, z along the optical axis. A level
+camera looks straight down, with the image's top towards the drone's nose, so
+camera x is the drone's right, camera -y its forward and camera z is down.
+Integer pixel coordinates are pixel centres.
+"""
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Geometry of the camera; the same model as `firmware/core/camera.c`, whose inverse is here.
+
+    Attributes:
+        width: Pixels a line.
+        height: Lines a frame.
+        focal_px: f in pixels.
+        centre_x: Column of the principal point.
+        centre_y: Line of the principal point.
+    """
+
+    width: int = 1280
+    height: int = 720
+    focal_px: float = 552.0
+    centre_x: float = 640.0
+    centre_y: float = 360.0
+
+    def scaled(self, divisor: int) -> "Camera":
+        """The same field of view in a frame `divisor` times smaller, for quick tests."""
+        return Camera(
+            self.width // divisor,
+            self.height // divisor,
+            self.focal_px / divisor,
+            self.centre_x / divisor,
+            self.centre_y / divisor,
+        )
+
+    def project(self, points: np.ndarray) -> np.ndarray:
+        """Image of points in camera axes.
+
+        Args:
+            points: (..., 3), any unit of length; not all zero, not on the negative optical axis.
+
+        Returns:
+            (..., 2) pixel coordinates x, y; may lie outside the frame.
+        """
+        points = np.asarray(points, dtype=np.float64)
+        axial = points[..., 2]
+        distance = np.linalg.norm(points, axis=-1)
+        # 2 tan(theta / 2) = 2 sin(theta) / (1 + cos(theta)): no arc tangent, and exact on the axis.
+        scale = 2.0 * self.focal_px / (distance + axial)
+        return np.stack([self.centre_x + scale * points[..., 0], self.centre_y + scale * points[..., 1]], axis=-1)
+
+    def rays(self) -> np.ndarray:
+        """Unit vectors in camera axes through every pixel centre: (height, width, 3) float32, read only."""
+        return _rays(self)
+
+
+@functools.lru_cache(maxsize=4)
+def _rays(camera: Camera) -> np.ndarray:
+    across = (np.arange(camera.width) - camera.centre_x)[None, :] / (2.0 * camera.focal_px)
+    down = (np.arange(camera.height) - camera.centre_y)[:, None] / (2.0 * camera.focal_px)
+    # t = tan(theta / 2): sin(theta) = 2 t / (1 + t^2), cos(theta) = (1 - t^2) / (1 + t^2).
+    squared = across**2 + down**2
+    rays = np.empty((camera.height, camera.width, 3), np.float32)
+    rays[..., 0] = 2.0 * across / (1.0 + squared)
+    rays[..., 1] = 2.0 * down / (1.0 + squared)
+    rays[..., 2] = (1.0 - squared) / (1.0 + squared)
+    rays.flags.writeable = False
+    return rays
