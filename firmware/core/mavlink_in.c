@@ -22,9 +22,7 @@ bool mavlink_in_timesync_request(struct mavlink_in *in, uint8_t byte, int64_t *r
     }
     mavlink_msg_timesync_decode(&message, &timesync);
     // tc1 is 0 in a request and the answerer's time in a reply.
-    if (timesync.tc1 != 0 ||
-        (timesync.target_system != 0U && timesync.target_system != MAVLINK_OUT_SYSTEM_ID) ||
-        (timesync.target_component != 0U && timesync.target_component != MAVLINK_OUT_COMPONENT_ID)) {
+    if (timesync.tc1 != 0) {
         return false;
     }
     *request_ns = timesync.ts1;

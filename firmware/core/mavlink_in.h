@@ -16,7 +16,7 @@ struct mavlink_in {
 
 void mavlink_in_init(struct mavlink_in *in);
 
-// Takes one byte. True when it completes a TIMESYNC request to us, whose
+// Takes one byte. True when it completes a TIMESYNC request, whose
 // timestamp is then in `request_ns`.
 bool mavlink_in_timesync_request(struct mavlink_in *in, uint8_t byte, int64_t *request_ns);
 

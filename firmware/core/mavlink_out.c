@@ -124,6 +124,6 @@ size_t mavlink_out_timesync_reply(struct mavlink_out *out, uint64_t now_us, int6
     mavlink_message_t message;
 
     mavlink_msg_timesync_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message,
-                                     (int64_t)(now_us * 1000U), request_ns, 0, 0);
+                                     (int64_t)(now_us * 1000U), request_ns);
     return finish(out, &status, &message, bytes);
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts of the board (Arty Z7-20) and of its wiring that no register tells.
+#ifndef TOUCHDOWN_BOARD_H
+#define TOUCHDOWN_BOARD_H
+
+// Half of the CPU clock of 650 MHz. Only time without the PL and the length of
+// a tick depend on it: with the PL, the PL's microseconds are the time.
+#define BOARD_PERIPHCLK_HZ 325000000U
+#define BOARD_UART_CLOCK_HZ 100000000U
+
+#define BOARD_AUTOPILOT_BAUD 921600U // UART0
+#define BOARD_GROUND_BAUD 57600U     // UART1
+
+#define BOARD_FRAME_WIDTH_PX 1280U
+#define BOARD_FRAME_HEIGHT_PX 720U
+
+// 0.5 of the way from the darkest to the brightest pixel. The hardware's reset
+// value is 0.25, the paper's; 0.5 finds washed-out pads as well.
+#define BOARD_THRESHOLD_FACTOR 128U
+#define BOARD_MIN_AREA_PX 30U
+
+#endif

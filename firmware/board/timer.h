@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Cortex-A9's own timers.
+#ifndef TOUCHDOWN_TIMER_H
+#define TOUCHDOWN_TIMER_H
+
+#include <stdint.h>
+
+void timer_init(void);
+
+// Microseconds since timer_init(), from the global timer.
+uint64_t timer_now_us(void);
+
+#endif

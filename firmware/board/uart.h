@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Both UARTs of the PS, 8N1, driven by interrupts through rings. Sending never
+// blocks: a message that does not fit into the ring is dropped whole.
+#ifndef TOUCHDOWN_UART_H
+#define TOUCHDOWN_UART_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum uart_id { UART_0, UART_1, UARTS };
+
+void uart_init(enum uart_id id, uint32_t baud);
+
+// False when the ring has no room for all of it; then nothing is sent.
+bool uart_write(enum uart_id id, const uint8_t *bytes, size_t size);
+
+size_t uart_read(enum uart_id id, uint8_t *bytes, size_t limit);
+bool uart_has_input(enum uart_id id);
+
+// For faults: without interrupts, past the ring. Gives up on a UART that takes nothing.
+void uart_write_polled(enum uart_id id, const uint8_t *bytes, size_t size);
+
+#endif
