@@ -14,7 +14,7 @@
 // Sampled with the trailer: scan_time_us. Sampled when the header is written: altitude_*, frames_malformed and
 // frames_overflow.
 // Beats before a first beat (tuser) are dropped. A first beat before the trailer abandons the frame; its buffer is
-// used again. A write error (SLVERR, DECERR) lets the frame run to its end unpublished; axi_error pulses then.
+// used again. After a write error (SLVERR, DECERR) nothing more of the frame is written; axi_error pulses at its end.
 // Overflow: objects beyond MAX_OBJECTS are taken and counted in the header. frames_unwritten wraps.
 // Limits: a reset while a burst is under way breaks the protocol; reset the memory port too (system reset).
 
@@ -176,9 +176,11 @@ module result_writer #(
     wire fits = object_count_reg != OBJECT_LIMIT[8:0];
 
     wire start_invalidate = state_reg == DRAIN && quiet;
-    wire start_held_object = state_reg == INVALIDATE && quiet && !held_is_trailer_reg;
-    wire start_object = start_held_object || (take_object && fits);
-    wire start_header = state_reg == HEADER && room;
+    // After an error nothing more of the frame is written: if the frame number could not be set to 0, the buffer still
+    // names the frame that it held before.
+    wire start_held_object = state_reg == INVALIDATE && quiet && !held_is_trailer_reg && !error_reg;
+    wire start_object = start_held_object || (take_object && fits && !error_reg);
+    wire start_header = state_reg == HEADER && room && !error_reg;
     wire start_publish = state_reg == SETTLE && quiet && !error_reg;
     wire start = start_invalidate || start_object || start_header || start_publish;
 
@@ -271,7 +273,7 @@ module result_writer #(
             end
             INVALIDATE: if (quiet) state_reg <= held_is_trailer_reg ? HEADER : OBJECTS;
             OBJECTS: if (take_next && s_axis_tlast) state_reg <= HEADER;
-            HEADER: if (start_header) state_reg <= SETTLE;
+            HEADER: if (start_header || error_reg) state_reg <= SETTLE;
             SETTLE: if (quiet) begin
                 if (error_reg) begin
                     state_reg <= IDLE;

@@ -1,0 +1,391 @@
+# SPDX-License-Identifier: Apache-2.0
+"""result_writer against `golden.result_writer`, with a memory that delays, reorders and fails writes."""
+
+from collections import deque
+from collections.abc import Callable
+from itertools import pairwise
+from random import Random, getrandbits
+
+import cocotb
+import numpy as np
+from cocotb.clock import Clock
+from cocotb.handle import HierarchyObject
+from cocotb.triggers import RisingEdge
+
+from golden.generated.landing_regs import HEADER_DTYPE, OBJECT_DTYPE, RING_BUFFERS, RING_STRIDE_BYTES
+from golden.result_writer import Frame, Published, record, run
+from tb.common.axi_memory import AxiMemory, Burst
+from tb.common.run import parameter, where
+from tb.common.stream import CLOCK_NS, Beat, PulseCounter, StreamMonitor, StreamSource, stalls
+
+MAX_OBJECTS = parameter("MAX_OBJECTS", 256)
+MAX_OUTSTANDING = parameter("MAX_OUTSTANDING", 8)
+RING_BASE = 0x1F30_0000
+FRAME_NUMBER_OFFSET = 56
+HEADER_LEN = 6  # awlen of the 56 bytes before it
+
+# Port, bits, member of the header; grouped by when the writer samples them.
+AT_FIRST_BEAT = (
+    ("frame_number", 32, "frame_number"),
+    ("frame_start_us", 64, "start_time_us"),
+    ("frame_width", 16, "frame_size_width"),
+    ("frame_height", 16, "frame_size_height"),
+    ("threshold_factor", 9, "threshold_factor"),
+    ("min_area", 32, "min_area"),
+    ("thresholds_missing", 1, "thresholds_missing"),
+    ("thresholds_stale", 1, "thresholds_stale"),
+)
+AT_TRAILER = (("scan_time_us", 32, "scan_time_us"),)
+AT_HEADER = (
+    ("altitude_mm", 32, "altitude_mm"),
+    ("altitude_age_us", 32, "altitude_age_us"),
+    ("altitude_valid", 1, "altitude_valid"),
+    ("frames_malformed", 32, "frames_malformed"),
+    ("frames_overflow", 32, "frames_overflow"),
+)
+ALL_PORTS = AT_FIRST_BEAT + AT_TRAILER + AT_HEADER
+
+# (idle fraction of the objects, stalled fraction of AW and W, latency range of the responses)
+WEATHER = {
+    "fast": (0.0, 0.0, (1, 1)),
+    "slow_memory": (0.0, 0.3, (60, 140)),
+    "idle_objects": (0.6, 0.0, (1, 20)),
+    "both": (0.4, 0.6, (1, 60)),
+}
+
+# Where a memory write fails: by the offset in the buffer and the data.
+PLACES: dict[str, Callable[[Burst], bool]] = {
+    "frame number 0": lambda burst: _offset(burst) == FRAME_NUMBER_OFFSET and not any(burst.data),
+    "first object": lambda burst: _offset(burst) == 64,
+    "last object": lambda burst: _offset(burst) == 64 + 2 * 64,
+    "header": lambda burst: _offset(burst) == 0,
+    "frame number": lambda burst: _offset(burst) == FRAME_NUMBER_OFFSET and any(burst.data),
+    "all": lambda _: True,
+}
+
+
+def _offset(burst: Burst) -> int:
+    return (burst.address - RING_BASE) % RING_STRIDE_BYTES
+
+
+def random_objects(rng: Random, count: int) -> np.ndarray:
+    """Return `count` objects with random bytes in every member, reserved ones included."""
+    return np.frombuffer(rng.randbytes(count * OBJECT_DTYPE.itemsize), OBJECT_DTYPE)
+
+
+def random_frame(rng: Random, number: int, **options: bool) -> Frame:
+    """Return a frame with random values and none, few, all that fit, or more objects than fit."""
+    values = {member: rng.getrandbits(bits) for _, bits, member in ALL_PORTS}
+    values["frame_number"] = number
+    counts = [0, 1, rng.randint(2, 9), MAX_OBJECTS if MAX_OBJECTS < 20 else 12, MAX_OBJECTS + rng.randint(1, 3)]
+    weights = [2, 2, 5, 3, 3 if MAX_OBJECTS < 20 else 0]
+    count = rng.choices(counts, weights)[0]
+    if not options.get("complete", True):
+        count = max(count, 1)
+    return Frame(values, random_objects(rng, count), **options)
+
+
+class Bench:
+    """The writer between a source of objects and a memory; checks the memory whenever it changes."""
+
+    def __init__(self, dut: HierarchyObject, rng: Random) -> None:
+        self.dut, self.rng = dut, rng
+        dut.rst.value = 1
+        dut.ring_base.value = RING_BASE | rng.getrandbits(12)
+        cocotb.start_soon(Clock(dut.clk, CLOCK_NS, unit="ns").start())
+        self.source = StreamSource(dut, "s_axis", dut.clk, rng)
+        self.source.on_beat = self._on_beat
+        self.input = StreamMonitor(dut, "s_axis", dut.clk, dut.rst)
+        self.memory = AxiMemory(dut, "m_axi", dut.clk, dut.rst, rng)
+        self.memory.on_change = self._check_no_torn_record
+        self.errors = PulseCounter(dut.axi_error, dut.clk, dut.rst)
+        self.done: list[tuple[int, int, int]] = []
+        self.expected: dict[int, bytes] = {}
+        self._actions: deque[Callable[[], None] | None] = deque()
+        self._without_header: deque[Frame] = deque()
+        self._scramble(ALL_PORTS)
+        cocotb.start_soon(self._watch_done())
+        cocotb.start_soon(self._watch_header())
+
+    async def reset(self) -> None:
+        """Reset the writer; the source drops what it had."""
+        self.dut.rst.value = 1
+        self.source.stop()
+        self._actions.clear()
+        self._without_header.clear()
+        for _ in range(3):
+            await RisingEdge(self.dut.clk)
+        self.dut.rst.value = 0
+        await RisingEdge(self.dut.clk)
+
+    def weather(self, name: str) -> None:
+        """Set idle cycles, stalls and latency."""
+        idle, stalled, latency = WEATHER[name]
+        self.source.pause = stalls(self.rng, idle)
+        self.memory.stall(stalled)
+        self.memory.latency = latency
+
+    def send(self, frame: Frame) -> None:
+        """Queue the beats of a frame."""
+        beats = [Beat(int.from_bytes(item.tobytes(), "little")) for item in frame.objects]
+        if frame.complete:
+            trailer = int.from_bytes(random_objects(self.rng, 1).tobytes(), "little") & ~0xFFFFFFFF
+            beats.append(Beat(trailer, last=1))
+            self._without_header.append(frame)
+        beats[0] = beats[0]._replace(user=1)
+        for beat in beats:
+            self._actions.append(lambda beat=beat: self._offer(frame, beat))
+        self.source.send_beats(beats)
+
+    def send_garbage(self, count: int) -> None:
+        """Queue beats that belong to no frame."""
+        self._actions.extend([None] * count)
+        self.source.send_beats([Beat(self.rng.getrandbits(512), last=self.rng.getrandbits(1)) for _ in range(count)])
+
+    def forget_unsent_headers(self) -> None:
+        """Expect no header any more of the frames that were sent: the writer skips it after an error."""
+        self._without_header.clear()
+
+    async def settle(self, limit: int = 60_000) -> None:
+        """Wait until everything is sent and nothing has happened for a while."""
+        quiet, start = 0, self.memory.cycle
+        while quiet < 400:
+            await RisingEdge(self.dut.clk)
+            active = not self.source.empty or str(self.dut.m_axi_awvalid.value) != "0"
+            quiet = 0 if active or str(self.dut.m_axi_bvalid.value) != "0" else quiet + 1
+            assert self.memory.cycle - start < limit, f"the writer is stuck after {limit} cycles; {where()}"
+
+    def check(self, frames: list[Frame]) -> None:
+        """Assert that records, counters and the last ring state are those of the golden model."""
+        outcome = run(frames, MAX_OBJECTS)
+        got = [(index, number) for index, number, _ in self.done]
+        wanted = [(published.index, published.frame_number) for published in outcome.published]
+        assert got == wanted, f"published (buffer, frame): expected {wanted}, got {got}; {where()}"
+        for published in outcome.published[-RING_BUFFERS:]:
+            self.compare(published)
+        unwritten = int(self.dut.frames_unwritten.value)
+        assert unwritten == outcome.unwritten, (
+            f"frames_unwritten: expected {outcome.unwritten}, got {unwritten}; {where()}"
+        )
+        assert self.errors.count == outcome.errors, (
+            f"axi_error pulses: expected {outcome.errors}, got {self.errors.count}; {where()}"
+        )
+
+    def compare(self, published: Published) -> None:
+        """Assert that the memory holds a record, byte for byte."""
+        got = self.memory.read(RING_BASE + published.offset, len(published.data))
+        if got == published.data:
+            return
+        at = next(i for i, (a, b) in enumerate(zip(got, published.data, strict=True)) if a != b)
+        raise AssertionError(
+            f"frame {published.frame_number}, buffer {published.index}: first bad byte {at} ({_member(at)}): "
+            f"expected 0x{published.data[at]:02x}, got 0x{got[at]:02x}; {where()}"
+        )
+
+    def _offer(self, frame: Frame, beat: Beat) -> None:
+        self._scramble(AT_FIRST_BEAT + AT_TRAILER)
+        if beat.user:
+            self._drive(AT_FIRST_BEAT, frame)
+        if beat.last:
+            self._drive(AT_TRAILER, frame)
+
+    def _on_beat(self, _: Beat) -> None:
+        action = self._actions.popleft()
+        if action:
+            action()
+
+    def _drive(self, ports: tuple, frame: Frame) -> None:
+        for port, _, member in ports:
+            getattr(self.dut, port).value = frame.values[member]
+
+    def _scramble(self, ports: tuple) -> None:
+        for port, bits, _ in ports:
+            getattr(self.dut, port).value = self.rng.getrandbits(bits)
+
+    def _check_no_torn_record(self, address: int) -> None:
+        """What a reader sees at any time: frame number 0 (or never written), or a whole record."""
+        index = (address - RING_BASE) // RING_STRIDE_BYTES
+        assert 0 <= index < RING_BUFFERS, f"a write outside the ring at 0x{address:x}; {where()}"
+        start = RING_BASE + index * RING_STRIDE_BYTES
+        number = int.from_bytes(self.memory.read(start + 60, 4), "little")
+        if number in (0, 0xA5A5A5A5):
+            return
+        assert number in self.expected, f"buffer {index} names frame {number}, which is none; {where()}"
+        self.compare(Published(index * RING_STRIDE_BYTES, index, number, self.expected[number]))
+
+    async def _watch_header(self) -> None:
+        """Change the values that are sampled with the header in every clock, and note which ones the header must hold.
+
+        They are those at the clock edge that raised `awvalid` for the header.
+        """
+        dut, offered, sampled = self.dut, False, {}
+        while True:
+            await RisingEdge(dut.clk)
+            was_offered, offered = offered, str(dut.m_axi_awvalid.value) == "1"
+            if str(dut.rst.value) == "0" and offered and not was_offered and int(dut.m_axi_awlen.value) == HEADER_LEN:
+                frame = self._without_header.popleft()
+                frame.values.update(sampled)
+                self.expected[frame.values["frame_number"]] = record(frame.values, frame.objects, MAX_OBJECTS)
+            sampled = {member: int(getattr(dut, port).value) for port, _, member in AT_HEADER}
+            self._scramble(AT_HEADER)
+
+    async def _watch_done(self) -> None:
+        dut = self.dut
+        while True:
+            await RisingEdge(dut.clk)
+            if str(dut.rst.value) == "0" and str(dut.frame_done.value) == "1":
+                index, number = int(dut.ring_head_index.value), int(dut.written_frame_number.value)
+                assert int(dut.ring_head_valid.value) == 1, f"frame_done while ring_head_valid is 0; {where()}"
+                self.done.append((index, number, self.memory.cycle))
+                offset = index * RING_STRIDE_BYTES
+                self.compare(Published(offset, index, number, self.expected.get(number, b"?")))
+                self._check_number_came_last(RING_BASE + offset)
+
+    def _check_number_came_last(self, start: int) -> None:
+        last = self.memory.bursts[-1]
+        assert (last.address, last.beats) == (start + FRAME_NUMBER_OFFSET, 1), f"last burst {last}; {where()}"
+        before = len(self.memory.bursts) - 1
+        assert last.answered_before == before, (
+            f"the frame number was sent after {last.answered_before} of {before} responses; {where()}"
+        )
+
+
+def _member(offset: int) -> str:
+    """Name of the member of the record that a byte offset lies in."""
+    dtype, name = (HEADER_DTYPE, "header") if offset < 64 else (OBJECT_DTYPE, f"object {offset // 64 - 1}")
+    fields = [member for member in dtype.names if dtype.fields[member][1] <= offset % 64]
+    return f"{name}.{fields[-1]}"
+
+
+@cocotb.test()
+@cocotb.parametrize(weather=list(WEATHER))
+async def frames_in_order(dut: HierarchyObject, weather: str) -> None:
+    """Back-to-back frames of all kinds, more than the ring holds."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather(weather)
+    frames = [random_frame(bench.rng, number) for number in range(1, 12)]
+    for frame in frames:
+        bench.send(frame)
+    await bench.settle()
+    bench.check(frames)
+
+
+@cocotb.test()
+async def fullest_frame(dut: HierarchyObject) -> None:
+    """Exactly as many objects as fit, then one more, then none."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather("fast")
+    frames = []
+    for number, count in enumerate((MAX_OBJECTS, MAX_OBJECTS + 1, 0), 1):
+        frames.append(Frame(random_frame(bench.rng, number).values, random_objects(bench.rng, count)))
+        bench.send(frames[-1])
+    await bench.settle()
+    bench.check(frames)
+
+
+@cocotb.test()
+@cocotb.parametrize(weather=list(WEATHER))
+async def cut_off_frames(dut: HierarchyObject, weather: str) -> None:
+    """A first beat before the trailer abandons the frame; the next one is whole and takes the same buffer."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather(weather)
+    frames = [random_frame(bench.rng, number, complete=bench.rng.random() < 0.5) for number in range(1, 12)]
+    frames[3:5] = [random_frame(bench.rng, number, complete=False) for number in (4, 5)]
+    frames.append(random_frame(bench.rng, 12))
+    for frame in frames:
+        bench.send(frame)
+    await bench.settle()
+    bench.check(frames)
+
+
+@cocotb.test()
+@cocotb.parametrize(place=list(PLACES))
+async def write_errors(dut: HierarchyObject, place: str) -> None:
+    """A write error anywhere in a frame: no record, one pulse, one count; the next frame is whole."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather("both")
+    frames = []
+    for number in range(1, 9):
+        bad = number % 3 == 0
+        frame = Frame(random_frame(bench.rng, number).values, random_objects(bench.rng, 3), write_error=bad)
+        frames.append(frame)
+        bench.memory.fails = PLACES[place] if bad else lambda _: False
+        bench.send(frame)
+        await bench.settle()
+        bench.forget_unsent_headers()
+    bench.check(frames)
+
+
+@cocotb.test()
+async def error_in_cut_off_frame(dut: HierarchyObject) -> None:
+    """A frame that fails and is cut off counts once, pulses once, and does not spoil the next one."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather("slow_memory")
+    rng = bench.rng
+    frames = [
+        Frame(random_frame(rng, 1).values, random_objects(rng, 3), complete=False, write_error=True),
+        random_frame(rng, 2),
+    ]
+    bench.memory.fails = lambda burst: burst.number == 1
+    for frame in frames:
+        bench.send(frame)
+    await bench.settle()
+    bench.check(frames)
+
+
+@cocotb.test()
+async def beats_without_a_frame(dut: HierarchyObject) -> None:
+    """Beats before the first first beat, and between trailer and first beat, are dropped."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather("both")
+    frames = [random_frame(bench.rng, number) for number in (1, 2)]
+    for frame in frames:
+        bench.send_garbage(bench.rng.randint(1, 5))
+        bench.send(frame)
+    await bench.settle()
+    bench.check(frames)
+
+
+@cocotb.test()
+async def reset_in_mid_frame(dut: HierarchyObject) -> None:
+    """After a system reset the ring starts at buffer 0 and the next frame is whole."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.reset()
+    bench.weather("slow_memory")
+    for _ in range(4):
+        bench.send(Frame(random_frame(bench.rng, 77).values, random_objects(bench.rng, 4)))
+        for _ in range(bench.rng.randint(1, 600)):
+            await RisingEdge(dut.clk)
+        await bench.reset()
+        bench.done.clear()
+        assert int(dut.ring_head_valid.value) == 0, f"ring_head_valid is 1 after reset; {where()}"
+    frames = [random_frame(bench.rng, number) for number in (78, 79)]
+    for frame in frames:
+        bench.send(frame)
+    await bench.settle()
+    bench.check(frames)
+
+
+@cocotb.test(skip=MAX_OUTSTANDING < 8)
+async def documented_speed(dut: HierarchyObject) -> None:
+    """One object in 9 clocks with 60 clocks of latency; trailer to frame_done as documented."""
+    bench = Bench(dut, Random(1))
+    await bench.reset()
+    for latency in (1, 30, 60):
+        bench.memory.latency = (latency, latency)
+        frame = Frame(random_frame(bench.rng, latency).values, random_objects(bench.rng, 40))
+        first = len(bench.memory.bursts)
+        bench.send(frame)
+        await bench.settle()
+        addresses = [burst.cycle for burst in bench.memory.bursts[first + 1 : first + 41]]
+        steps = {after - before for before, after in pairwise(addresses[1:])}
+        assert steps == {9}, f"clocks between objects: {sorted(steps)}, expected 9; {where()}"
+        trailer = bench.input.taken[-1].cycle
+        clocks = bench.done[-1][2] - trailer
+        dut._log.info(f"latency {latency}: trailer to frame_done {clocks} clocks")
