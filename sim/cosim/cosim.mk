@@ -44,7 +44,7 @@ $(BUILD)/obj/%.o: sim/cosim/%.cpp $(MODEL)/Vlanding_core.mk
 $(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_plugin.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
 
-$(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(SHARED_OBJECTS) $(MODEL_LIBS)
+$(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -o $@ $^ $(LDLIBS)
 
 -include $(wildcard $(BUILD)/obj/*.d)

@@ -14,13 +14,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "sim/cosim/qemu_abi.h"
 #include "sim/cosim/run_log.h"
+#include "sim/verilated/arguments.h"
 #include "sim/verilated/landing_layout.h"
 #include "sim/verilated/landing_model.h"
 
@@ -109,11 +108,12 @@ private:
 
 class Plugin final : public Board {
 public:
-    explicit Plugin(const std::map<std::string, std::string>& arguments)
-        : log_(text(arguments, "out")), frames_(text(arguments, "frames")) {
+    explicit Plugin(const Arguments& arguments)
+        : log_(arguments.text("out")),
+          frames_(arguments.text("frames")),
+          tail_ns_(arguments.number("tail-us") * 1000) {
         ModelConfig config;
-        config.video.frame_clocks = std::stoull(text(arguments, "frame-clocks"));
-        tail_ns_ = std::stoull(text(arguments, "tail-us")) * 1000;
+        config.video.frame_clocks = arguments.number("frame-clocks");
         model_ = std::make_unique<LandingModel>(config, frames_, *this);
     }
 
@@ -166,12 +166,6 @@ public:
     void record(uint64_t address, uint64_t time_ns) override { log_.record(*this, address, time_ns); }
 
 private:
-    static const std::string& text(const std::map<std::string, std::string>& arguments, const std::string& key) {
-        const auto found = arguments.find(key);
-        if (found == arguments.end()) throw std::runtime_error("the plugin needs the argument " + key + "=.");
-        return found->second;
-    }
-
     // No exception may pass through QEMU's C code.
     template <typename Action>
     uint64_t guarded(Action action) {
@@ -212,13 +206,13 @@ private:
 
     RunLog log_;
     FrameList frames_;
+    uint64_t tail_ns_;
     std::unique_ptr<LandingModel> model_;
     qemu::MemoryRegion region_ = {};
     qemu::Timer timer_ = {};
     UartTap uarts_[2];
     void* irq_ = nullptr;
     uint64_t deadline_ns_ = 0;
-    uint64_t tail_ns_ = 0;
     uint64_t last_pixel_ns_ = 0;
     bool enabled_ = false;
     bool finished_ = false;
@@ -243,15 +237,9 @@ __attribute__((visibility("default"))) int qemu_plugin_install(uint64_t, const q
                                                                char** arguments) {
     using namespace touchdown;
     check_version();
-    std::map<std::string, std::string> table;
-    for (int i = 0; i < count; ++i) {
-        const std::string argument = arguments[i];
-        const size_t equals = argument.find('=');
-        if (equals != std::string::npos) table[argument.substr(0, equals)] = argument.substr(equals + 1);
-    }
     try {
         // Lives as long as the process: QEMU keeps pointers into it.
-        static Plugin* plugin = new Plugin(table);
+        static Plugin* plugin = new Plugin(Arguments(count, arguments));
         aio_bh_schedule_oneshot_full(
             qemu_get_aio_context(), [](void* self) { static_cast<Plugin*>(self)->map(); }, plugin, "touchdown-map");
     } catch (const std::exception& error) {

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the frame list that the C++ camera shows; sim/verilated/frame_list.h has the layout."""
+
+import struct
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from scripts.errors import UserError
+
+MAGIC = b"TDF1"
+MAX_WIDTH = 1280
+MAX_HEIGHT = 720
+MIN_SIDE = 16
+MAX_ALTITUDE_MM = 40_000
+
+
+@dataclass(frozen=True)
+class FrameList:
+    """A frame list on disk: size of a frame, how many it holds, and how often each is shown in a row."""
+
+    path: Path
+    width: int
+    height: int
+    count: int
+    repeat: int
+
+    @property
+    def shown(self) -> int:
+        """Frames on the wire."""
+        return self.count * self.repeat
+
+
+def _checked(index: int, frame: np.ndarray, shape: tuple[int, ...] | None) -> np.ndarray:
+    if frame.dtype != np.uint8 or frame.ndim != 3 or frame.shape[2] != 3:
+        raise UserError(f"frame {index} is {frame.dtype} {frame.shape}; give uint8 RGB of shape (height, width, 3).")
+    height, width = frame.shape[:2]
+    if not (MIN_SIDE <= width <= MAX_WIDTH and MIN_SIDE <= height <= MAX_HEIGHT):
+        raise UserError(f"frame {index} is {width}x{height}; the hardware takes 16x16 to {MAX_WIDTH}x{MAX_HEIGHT}.")
+    if shape is not None and frame.shape != shape:
+        raise UserError(f"frame {index} is {width}x{height} and frame 0 is {shape[1]}x{shape[0]}; give one size.")
+    return np.ascontiguousarray(frame)
+
+
+def write_frame_list(
+    path: Path, frames: Iterable[np.ndarray], altitudes_mm: Iterable[int], repeat: int = 1
+) -> FrameList:
+    """Write frames and their altitudes as they come; no more than one frame is held in memory.
+
+    Args:
+        path: file to write.
+        frames: uint8 RGB, (height, width, 3), all of one size.
+        altitudes_mm: what the LiDAR measures during each frame, in millimetres; 0 = no return.
+        repeat: how often each frame is shown in a row.
+
+    Raises:
+        UserError: no frames, a frame of wrong shape or size, too few altitudes, or an altitude out of range.
+    """
+    if repeat < 1:
+        raise UserError(f"repeat is {repeat}; show each frame at least once.")
+    count = 0
+    shape = None
+    altitudes = iter(altitudes_mm)
+    with path.open("wb") as file:
+        file.write(bytes(20))
+        for frame in frames:
+            pixels = _checked(count, frame, shape)
+            shape = pixels.shape
+            altitude = next(altitudes, None)
+            if altitude is None:
+                raise UserError(f"there is no altitude for frame {count}; give one a frame.")
+            if not 0 <= altitude <= MAX_ALTITUDE_MM:
+                raise UserError(f"the altitude of frame {count} is {altitude} mm; the LiDAR sees 0 to 40000 mm.")
+            file.write(struct.pack("<I", round(altitude)))
+            file.write(pixels.tobytes())
+            count += 1
+        if shape is None:
+            raise UserError("there are no frames to show; give at least one.")
+        file.seek(0)
+        file.write(MAGIC + struct.pack("<4I", shape[1], shape[0], count, repeat))
+    return FrameList(path, shape[1], shape[0], count, repeat)

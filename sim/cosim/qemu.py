@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The one QEMU that the co-simulation's plugin works with."""
+
+import re
+import subprocess
+from pathlib import Path
+
+from scripts.errors import UserError
+from sim.cosim.build import need
+
+SERIES = "7.2"
+PROGRAM = "qemu-system-arm"
+ADVICE = f"install Debian 12's package {PROGRAM} ({SERIES}), or use FIRMWARE=host"
+
+
+def find_qemu() -> str:
+    """Path of QEMU.
+
+    Raises:
+        UserError: it is absent or of another series than the plugin knows.
+    """
+    path = need(PROGRAM, ADVICE)
+    run = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
+    match = re.search(r"version (\d+\.\d+)", run.stdout)
+    if match is None:
+        raise UserError(f"{path} does not say which version of QEMU it is: {ADVICE}.")
+    if match[1] != SERIES:
+        raise UserError(f"the co-simulation works with QEMU {SERIES} and {path} is {match[1]}: {ADVICE}.")
+    return path
+
+
+def qemu_command(qemu: str, elf: Path, plugin: Path, arguments: dict[str, object], out_dir: Path) -> list[str]:
+    """Command line that runs `elf` on the Zynq with the plugin; UARTs go to files in `out_dir`.
+
+    `-icount shift=1,sleep=off` makes an instruction 2 ns and skips time in which the CPU sleeps; `-S` lets the plugin
+    map its registers before the first instruction.
+    """
+    options = "".join(f",{key}={value}" for key, value in arguments.items())
+    return [
+        *(qemu, "-M", "xilinx-zynq-a9", "-m", "512M", "-icount", "shift=1,sleep=off", "-S"),
+        *("-display", "none", "-nodefaults", "-monitor", "none"),
+        *("-serial", f"file:{out_dir / 'uart0.bin'}", "-serial", f"file:{out_dir / 'uart1.bin'}"),
+        *("-kernel", str(elf), "-plugin", f"file={plugin}{options}"),
+    ]
