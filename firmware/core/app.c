@@ -28,7 +28,6 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
 {
     memset(app, 0, sizeof *app);
     app->port = *port;
-    app->camera = camera_default;
     app->fault = fault;
     app->next_heartbeat_us = now_us;
     app->next_distance_us = now_us;
@@ -102,8 +101,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         .distance_mm = record->header.altitude_mm,
         .age_us = record->header.altitude_age_us,
     };
+    // Smaller frames are the same camera, binned.
+    const struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
     const bool found =
-        classify_pad(record, &app->scratch, &pad) == 0 && pad_pose_estimate(&pad, &app->camera, &pose) == 0;
+        classify_pad(record, &app->scratch, &pad) == 0 && pad_pose_estimate(&pad, &camera, &pose) == 0;
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pose : NULL);
 
     if (found) {

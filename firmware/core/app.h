@@ -51,7 +51,6 @@ struct app {
     struct app_port port;
     struct mavlink_out out[APP_LINKS];
     struct mavlink_in in[APP_LINKS];
-    struct camera camera;
     const char *fault;
     uint64_t next_heartbeat_us;
     uint64_t next_distance_us;

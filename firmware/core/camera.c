@@ -7,7 +7,21 @@
 // so far away that a pixel of noise is metres.
 #define HALF_ANGLE_TANGENT_LIMIT 0.8390996
 
-const struct camera camera_default = {.focal_px = 552.0, .centre_x_px = 640.0, .centre_y_px = 360.0};
+const struct camera camera_default = {
+    .focal_px = 552.0, .centre_x_px = 640.0, .centre_y_px = 360.0, .width_px = 1280.0};
+
+struct camera camera_scaled(const struct camera *camera, double width_px)
+{
+    const double scale = width_px / camera->width_px;
+    const struct camera scaled = {
+        .focal_px = camera->focal_px * scale,
+        .centre_x_px = camera->centre_x_px * scale,
+        .centre_y_px = camera->centre_y_px * scale,
+        .width_px = width_px,
+    };
+
+    return scaled;
+}
 
 int camera_unproject(const struct camera *camera, double x_px, double y_px, struct camera_ray *ray)
 {

@@ -11,6 +11,7 @@ struct camera {
     double focal_px;    // f, at the centre of the image
     double centre_x_px; // principal point; integers are pixel centres
     double centre_y_px;
+    double width_px; // of the frame that the above refer to
 };
 
 // A direction as the point where it meets the plane one unit below the camera.
@@ -20,6 +21,9 @@ struct camera_ray {
 };
 
 extern const struct camera camera_default;
+
+// The same optics in a frame of another width, all of the field of view kept.
+struct camera camera_scaled(const struct camera *camera, double width_px);
 
 // 0, or CAMERA_E_OUTSIDE when the pixel looks 80 degrees or more off axis (or is
 // not a number).

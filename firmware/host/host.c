@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host.h"
+
+#include <string.h>
+
+#include "app.h"
+
+static struct app app;
+static struct landing_record record;
+static touchdown_write write_bytes;
+
+static void forward(void *context, enum app_link link, const uint8_t *bytes, size_t size)
+{
+    write_bytes(context, (int)link, bytes, size);
+}
+
+void touchdown_init(touchdown_write write, void *context, uint64_t now_us)
+{
+    const struct app_port port = {.write = forward, .context = context};
+
+    write_bytes = write;
+    app_init(&app, &port, now_us, NULL);
+}
+
+int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us)
+{
+    // Copied, because the caller's bytes may be unaligned.
+    memcpy(&record, bytes, size < sizeof record ? size : sizeof record);
+    return app_on_record(&app, &record, size, now_us);
+}
+
+void touchdown_on_bytes(int link, const uint8_t *bytes, size_t size, uint64_t now_us)
+{
+    app_on_bytes(&app, link == TOUCHDOWN_AUTOPILOT ? APP_LINK_AUTOPILOT : APP_LINK_GROUND, bytes, size, now_us);
+}
+
+void touchdown_tick(uint64_t now_us, bool lidar_valid, uint32_t lidar_distance_mm, uint32_t lidar_age_us)
+{
+    const struct lidar_reading lidar = {
+        .valid = lidar_valid,
+        .distance_mm = lidar_distance_mm,
+        .age_us = lidar_age_us,
+    };
+
+    app_tick(&app, now_us, &lidar);
+}
