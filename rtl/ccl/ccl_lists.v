@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// The linked lists of runs of ccl: decides in one clock what one column event does to the components.
+//
+// Runs of set pixels are numbered in raster order; the number, modulo the ring size, is the slot of the run. `p` is the
+// leftmost run of the line above whose right end the scan has not passed, `c` the next run of the current line to end. A
+// component that crosses the scan line is a class: its `pending` runs are the ones from `p` on, its `current` runs those of
+// the current line, each a list from left to right linked through `next`. Classes do not cross (they are
+// connected sets in a plane), so of two classes that meet at `p` and `c` all lists can be joined by linking one tail to
+// one head. What is known of a class - its lists - lives in one place, its home: the slot of its first pending run or,
+// when none is pending, of its first current run. The class of the run being scanned, once touched, lives in x_*.
+// The class of p, if p is its home, is prefetched into y_*.
+//
+// One event a clock, no stalls, no search, no label that points to a label. For ccl_store each event says, one cycle later,
+// what to do with the record of the class; the record has the same home as the class.
+
+`default_nettype none
+
+module ccl_lists #(
+    parameter SLOT_BITS = 10
+) (
+    input wire clk,
+    input wire rst,
+
+    input wire restart,    // forget everything
+    input wire end_above,  // the run p ends in this column
+    input wire end_here,   // the run c ends in this column
+    input wire touch,      // p and c are 8-connected
+
+    output wire [SLOT_BITS-1:0] above,  // p
+
+    // One cycle later: the record of the class that the event is about becomes the accumulator.
+    output reg                 load,       // the accumulator does not hold it: take the record stored at `load_slot`
+    output reg [SLOT_BITS-1:0] load_slot,
+    output reg                 keep,       // what the accumulator holds belongs to it
+    output reg                 add_run,    // the run that ended belongs to it
+    output reg                 complete,   // it is a whole component
+    output reg                 save,       // the accumulator holds another class: store that at `save_slot`
+    output reg [SLOT_BITS-1:0] save_slot
+);
+    localparam INFO_BITS = 3 * SLOT_BITS + 1;
+    localparam SLOTS = 1 << SLOT_BITS;
+
+    reg [SLOT_BITS-1:0] p_reg, c_reg;
+    wire [SLOT_BITS-1:0] p_plus_1 = p_reg + 1'b1;
+    wire [SLOT_BITS-1:0] p_plus_2 = p_plus_1 + 1'b1;
+    wire [SLOT_BITS-1:0] p_next = end_above ? p_plus_1 : p_reg;
+
+    // Class of the run c, once c has touched a run above; the current list ends with c.
+    reg x_active_reg, x_pending_reg;
+    reg [SLOT_BITS-1:0] x_head_reg, x_tail_reg, x_first_reg;
+
+    // Class of the run p if p is its home. Without current runs first and last mean nothing.
+    reg y_current_reg, y_held_reg;
+    reg [SLOT_BITS-1:0] y_tail_reg, y_first_reg, y_last_reg, y_next_reg;
+
+    wire x_is_y = x_active_reg && x_pending_reg && x_head_reg == p_reg;
+    wire y_more = y_tail_reg != p_reg;
+
+    // The class of c after it touched p, with p consumed.
+    reg joined_pending;
+    reg [SLOT_BITS-1:0] joined_head, joined_tail, joined_first;
+    reg link_enable;
+    reg [SLOT_BITS-1:0] link_from, link_to;
+
+    always @* begin
+        joined_head = y_next_reg;
+        link_from   = y_last_reg;
+        link_to     = c_reg;
+        if (x_is_y) begin
+            joined_pending = x_tail_reg != p_reg;
+            joined_tail    = x_tail_reg;
+            joined_first   = x_first_reg;
+            link_enable    = 1'b0;
+        end else if (x_active_reg) begin
+            // Planarity: pending runs of y precede those of x, current ones too, and not both kinds of list need a link.
+            joined_pending = x_pending_reg || y_more;
+            joined_tail    = x_pending_reg ? x_tail_reg : y_tail_reg;
+            joined_first   = y_current_reg ? y_first_reg : x_first_reg;
+            link_enable    = x_pending_reg || y_current_reg;
+            link_to        = x_first_reg;
+            if (!y_more) joined_head = x_head_reg;
+            if (x_pending_reg) begin
+                link_from = y_tail_reg;
+                link_to   = x_head_reg;
+            end
+        end else begin
+            joined_pending = y_more;
+            joined_tail    = y_tail_reg;
+            joined_first   = y_current_reg ? y_first_reg : c_reg;
+            link_enable    = y_current_reg;
+        end
+        link_enable = link_enable && touch && (end_above || end_here);
+    end
+
+    // Where the class goes when the event leaves it without an active run.
+    wire complete_now = end_above && !touch && !y_more && !y_current_reg;
+    wire settle = end_here || (end_above && !touch && !complete_now);
+    reg [SLOT_BITS-1:0] home;
+    reg [INFO_BITS-1:0] home_info;
+
+    always @* begin
+        home      = c_reg;
+        home_info = {1'b0, c_reg, c_reg, c_reg};
+        if (touch) begin
+            if (!end_above) begin
+                home      = p_reg;
+                home_info = {1'b1, c_reg, joined_first, joined_tail};
+            end else if (joined_pending) begin
+                home      = joined_head;
+                home_info = {1'b1, c_reg, joined_first, joined_tail};
+            end else begin
+                home = joined_first;
+            end
+        end else if (end_above) begin
+            if (y_more) begin
+                home      = y_next_reg;
+                home_info = {y_current_reg, y_last_reg, y_first_reg, y_tail_reg};
+            end else begin
+                home      = y_first_reg;
+                home_info = {1'b0, c_reg, c_reg, y_last_reg};
+            end
+        end else if (x_active_reg) begin
+            home = x_first_reg;
+            if (x_pending_reg) begin
+                home      = x_head_reg;
+                home_info = {1'b1, c_reg, x_first_reg, x_tail_reg};
+            end
+        end
+    end
+
+    wire home_is_p_next = settle && home == p_next;
+
+    // Both memories are read at the slot after p_next; a write to the slot that is being read is passed by.
+    reg [INFO_BITS-1:0] info[0:SLOTS-1];
+    reg [SLOT_BITS-1:0] next[0:SLOTS-1];
+    reg [INFO_BITS-1:0] info_read_reg, info_passed_reg;
+    reg [SLOT_BITS-1:0] next_read_reg, next_passed_reg;
+    reg info_pass_reg, next_pass_reg;
+    wire [SLOT_BITS-1:0] prefetch = end_above ? p_plus_2 : p_plus_1;
+
+    always @(posedge clk) begin
+        info_read_reg   <= info[prefetch];
+        info_pass_reg   <= settle && home == prefetch;
+        info_passed_reg <= home_info;
+        if (settle) info[home] <= home_info;
+    end
+
+    always @(posedge clk) begin
+        next_read_reg   <= next[prefetch];
+        next_pass_reg   <= link_enable && link_from == prefetch;
+        next_passed_reg <= link_to;
+        if (link_enable) next[link_from] <= link_to;
+    end
+
+    wire [INFO_BITS-1:0] info_ahead = info_pass_reg ? info_passed_reg : info_read_reg;
+    wire [SLOT_BITS-1:0] next_ahead = next_pass_reg ? next_passed_reg : next_read_reg;
+
+    always @(posedge clk) begin
+        if (home_is_p_next) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= home_info;
+        else if (end_above) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= info_ahead;
+        if (link_enable && link_from == p_next) y_next_reg <= link_to;
+        else if (end_above) y_next_reg <= next_ahead;
+
+        if (touch) begin
+            x_pending_reg <= joined_pending;
+            x_head_reg    <= joined_head;
+            x_tail_reg    <= joined_tail;
+            x_first_reg   <= joined_first;
+        end
+    end
+
+    // Which class the accumulator of ccl_store holds after this event: that of the event, at `home` or active.
+    reg held_reg;
+    reg [SLOT_BITS-1:0] held_home_reg;
+    wire fresh = end_here && !touch && !x_active_reg;
+    wire fetch = !x_active_reg && !y_held_reg && (touch || end_above);
+    wire event_valid = end_above || end_here;
+
+    always @(posedge clk) begin
+        load          <= event_valid && (fetch || (touch && x_active_reg && !x_is_y));
+        load_slot     <= p_reg;
+        keep          <= !(event_valid && (fetch || fresh));
+        add_run       <= end_here;
+        complete      <= complete_now;
+        save          <= event_valid && (fetch || fresh) && held_reg;
+        save_slot     <= held_home_reg;
+        held_home_reg <= home;
+    end
+
+    always @(posedge clk) begin
+        p_reg <= p_next;
+        if (end_here) c_reg <= c_reg + 1'b1;
+        if (event_valid) begin
+            x_active_reg <= touch && !end_here;
+            held_reg     <= !complete_now;
+            y_held_reg   <= home_is_p_next;
+        end
+        if (rst || restart) begin
+            p_reg        <= 0;
+            c_reg        <= 0;
+            x_active_reg <= 1'b0;
+            y_held_reg   <= 1'b0;
+            held_reg     <= 1'b0;
+        end
+    end
+
+    assign above = p_reg;
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Queue of found components and its object stream. `almost_full` rises while there is still room for the components that
+// the pipeline before it may hold.
+
+`default_nettype none
+
+module ccl_send #(
+    parameter MOMENTS     = 2,
+    parameter X_BITS      = 11,
+    parameter Y_BITS      = 10,
+    parameter AREA_BITS   = 20,
+    parameter SUM_X_BITS  = 30,
+    parameter SUM_Y_BITS  = 29,
+    parameter SUM_XX_BITS = 39,
+    parameter SUM_YY_BITS = 38,
+    parameter SUM_XY_BITS = 38,
+    parameter RECORD_BITS = 236
+) (
+    input wire clk,
+    input wire rst,
+
+    input wire                   found_start,
+    input wire                   found,
+    input wire                   found_end,
+    input wire [RECORD_BITS-1:0] found_record,
+
+    output reg almost_full,
+
+    output wire [511:0] m_axis_tdata,
+    output wire         m_axis_tvalid,
+    input  wire         m_axis_tready,
+    output wire         m_axis_tuser,
+    output wire         m_axis_tlast
+);
+    `include "result_record.vh"
+
+    localparam DEPTH_BITS = 5;
+    localparam DEPTH = 1 << DEPTH_BITS;
+    // An event that leaves ccl_scan as almost_full rises is found 7 clocks later.
+    localparam RESERVE = 10;
+
+    reg [RECORD_BITS+1:0] queue[0:DEPTH-1];
+    reg [DEPTH_BITS:0] write_reg, read_reg;
+    reg first_reg;
+    wire [DEPTH_BITS:0] count = write_reg - read_reg;
+    wire push = found || found_end;
+    wire pop = m_axis_tvalid && m_axis_tready;
+    wire [RECORD_BITS-1:0] record;
+
+    assign {m_axis_tuser, m_axis_tlast, record} = queue[read_reg[DEPTH_BITS-1:0]];
+    assign m_axis_tvalid = count != 0;
+
+    always @(posedge clk) begin
+        if (push) queue[write_reg[DEPTH_BITS-1:0]] <= {first_reg, found_end, found_record};
+    end
+
+    always @(posedge clk) begin
+        if (push) begin
+            write_reg <= write_reg + 1'b1;
+            first_reg <= found_end;
+        end
+        if (pop) read_reg <= read_reg + 1'b1;
+        if (found_start) first_reg <= 1'b1;
+        almost_full <= count >= DEPTH - RESERVE;
+        if (rst) begin
+            write_reg   <= 0;
+            read_reg    <= 0;
+            first_reg   <= 1'b1;
+            almost_full <= 1'b0;
+        end
+    end
+
+    localparam MIN_X = AREA_BITS;
+    localparam MIN_Y = MIN_X + X_BITS;
+    localparam MAX_X = MIN_Y + Y_BITS;
+    localparam MAX_Y = MAX_X + X_BITS;
+    localparam SUM_X = MAX_Y + Y_BITS;
+    localparam SUM_Y = SUM_X + SUM_X_BITS;
+    localparam SUM_XX = SUM_Y + SUM_Y_BITS;
+    localparam SUM_YY = SUM_XX + SUM_XX_BITS;
+    localparam SUM_XY = SUM_YY + SUM_YY_BITS;
+
+    // The trailer is all zeros.
+    wire [X_BITS-1:0] min_x = ~record[MIN_X+:X_BITS] & {X_BITS{!m_axis_tlast}};
+    wire [Y_BITS-1:0] min_y = ~record[MIN_Y+:Y_BITS] & {Y_BITS{!m_axis_tlast}};
+
+    assign m_axis_tdata[OBJECT_SUM_X_LSB-1:0] = {
+        {OBJECT_RESERVED_0_WIDTH{1'b0}},
+        {{(OBJECT_BOX_MAX_Y_WIDTH - Y_BITS) {1'b0}}, record[MAX_Y+:Y_BITS]},
+        {{(OBJECT_BOX_MAX_X_WIDTH - X_BITS) {1'b0}}, record[MAX_X+:X_BITS]},
+        {{(OBJECT_BOX_MIN_Y_WIDTH - Y_BITS) {1'b0}}, min_y},
+        {{(OBJECT_BOX_MIN_X_WIDTH - X_BITS) {1'b0}}, min_x},
+        {{(OBJECT_AREA_WIDTH - AREA_BITS) {1'b0}}, record[0+:AREA_BITS]}
+    };
+    generate
+        if (MOMENTS >= 1) begin : first
+            assign m_axis_tdata[OBJECT_SUM_XX_LSB-1:OBJECT_SUM_X_LSB] = {
+                {{(OBJECT_SUM_Y_WIDTH - SUM_Y_BITS) {1'b0}}, record[SUM_Y+:SUM_Y_BITS]},
+                {{(OBJECT_SUM_X_WIDTH - SUM_X_BITS) {1'b0}}, record[SUM_X+:SUM_X_BITS]}
+            };
+        end else begin : no_first
+            assign m_axis_tdata[OBJECT_SUM_XX_LSB-1:OBJECT_SUM_X_LSB] = 0;
+        end
+        if (MOMENTS >= 2) begin : second
+            assign m_axis_tdata[OBJECT_RESERVED_1_LSB-1:OBJECT_SUM_XX_LSB] = {
+                {{(OBJECT_SUM_XY_WIDTH - SUM_XY_BITS) {1'b0}}, record[SUM_XY+:SUM_XY_BITS]},
+                {{(OBJECT_SUM_YY_WIDTH - SUM_YY_BITS) {1'b0}}, record[SUM_YY+:SUM_YY_BITS]},
+                {{(OBJECT_SUM_XX_WIDTH - SUM_XX_BITS) {1'b0}}, record[SUM_XX+:SUM_XX_BITS]}
+            };
+        end else begin : no_second
+            assign m_axis_tdata[OBJECT_RESERVED_1_LSB-1:OBJECT_SUM_XX_LSB] = 0;
+        end
+    endgenerate
+    assign m_axis_tdata[511:OBJECT_RESERVED_1_LSB] = 0;
+endmodule
+
+`default_nettype wire
