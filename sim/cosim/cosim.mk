@@ -13,6 +13,7 @@ LDLIBS := -lpthread
 
 SHARED := frame_list video_source axi_memory stage_taps landing_model
 SHARED_OBJECTS := $(SHARED:%=$(BUILD)/obj/%.o)
+FIRMWARE_LIBRARY := build/firmware/libtouchdown.a
 MODEL_LIBS := $(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a
 
 # verilator itself sees to it that unchanged sources change nothing.
@@ -43,6 +44,16 @@ $(BUILD)/obj/%.o: sim/cosim/%.cpp $(MODEL)/Vlanding_core.mk
 
 $(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_plugin.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
+
+# Called without a question whether it is needed: firmware/Makefile knows.
+.PHONY: firmware-library
+firmware-library:
+	+$(MAKE) -C firmware host
+
+$(BUILD)/touchdown-host: $(BUILD)/obj/host_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS) | firmware-library
+	$(CXX) -o $@ $^ $(FIRMWARE_LIBRARY) -lm $(LDLIBS)
+
+$(BUILD)/touchdown-host: $(wildcard firmware/core/*.[ch] firmware/host/host.[ch] firmware/board/board.h)
 
 $(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -o $@ $^ $(LDLIBS)
