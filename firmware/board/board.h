@@ -17,6 +17,5 @@
 // 0.5 of the way from the darkest to the brightest pixel. The hardware's reset
 // value is 0.25, the paper's; 0.5 finds washed-out pads as well.
 #define BOARD_THRESHOLD_FACTOR 128U
-#define BOARD_MIN_AREA_PX 30U
 
 #endif

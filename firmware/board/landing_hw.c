@@ -66,7 +66,7 @@ const char *landing_hw_fault(void)
     return NULL;
 }
 
-void landing_hw_start(void)
+void landing_hw_start(uint32_t min_area_px)
 {
     byte_ring_init(&pending, pending_storage, PENDING_FRAMES);
     for (uint32_t i = 0; i < LANDING_RING_BUFFERS; i++) {
@@ -77,7 +77,7 @@ void landing_hw_start(void)
     set(LANDING_REG_FRAME_SIZE_OFFSET, (BOARD_FRAME_WIDTH_PX << LANDING_REG_FRAME_SIZE_WIDTH_SHIFT) |
                                            (BOARD_FRAME_HEIGHT_PX << LANDING_REG_FRAME_SIZE_HEIGHT_SHIFT));
     set(LANDING_REG_THRESHOLD_OFFSET, BOARD_THRESHOLD_FACTOR);
-    set(LANDING_REG_MIN_AREA_OFFSET, BOARD_MIN_AREA_PX);
+    landing_hw_set_min_area(min_area_px);
     set(LANDING_REG_LIDAR_CTRL_OFFSET, LANDING_REG_LIDAR_CTRL_ENABLE_MASK);
     set(LANDING_REG_IRQ_STATUS_OFFSET, ALL_INTERRUPTS);
     set(LANDING_REG_IRQ_ENABLE_OFFSET, LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK);
@@ -85,6 +85,11 @@ void landing_hw_start(void)
     // The ring is memory, the registers are device: the zeros must be there first.
     __asm__ volatile("dsb" ::: "memory");
     set(LANDING_REG_CTRL_OFFSET, LANDING_REG_CTRL_DARK_IS_ONE_MASK | LANDING_REG_CTRL_ENABLE_MASK);
+}
+
+void landing_hw_set_min_area(uint32_t pixels)
+{
+    set(LANDING_REG_MIN_AREA_OFFSET, pixels);
 }
 
 uint64_t landing_hw_time_us(void)

@@ -14,7 +14,9 @@
 const char *landing_hw_fault(void);
 
 // Configures the hardware, then enables it.
-void landing_hw_start(void);
+void landing_hw_start(uint32_t min_area_px);
+
+void landing_hw_set_min_area(uint32_t pixels);
 
 // Microseconds since reset of the PL. Only from the main loop: reading the low
 // half latches the high one.

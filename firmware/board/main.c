@@ -60,7 +60,7 @@ int main(void)
     const bool has_hardware = fault == NULL;
     app_init(&app, &port, has_hardware ? landing_hw_time_us() : timer_now_us(), fault);
     if (has_hardware) {
-        landing_hw_start();
+        landing_hw_start(app_min_area_px(&app));
     }
     for (;;) {
         const uint64_t now_us = has_hardware ? landing_hw_time_us() : timer_now_us();
@@ -69,6 +69,7 @@ int main(void)
             const int size = landing_hw_take_frame(&record);
             if (size > 0) {
                 (void)app_on_record(&app, &record, (size_t)size, now_us);
+                landing_hw_set_min_area(app_min_area_px(&app));
             }
         }
         read(APP_LINK_AUTOPILOT, now_us);

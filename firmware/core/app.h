@@ -56,7 +56,7 @@ struct app {
     uint64_t next_distance_us;
     uint64_t last_record_us;
     bool camera_lost;
-    uint32_t records_rejected;
+    uint32_t min_area_px;
     struct classify_scratch scratch;
 };
 
@@ -67,6 +67,10 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
 // One record of `size_bytes`, as copied. Returns 0, or the RECORD_E_* for which
 // it was rejected.
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us);
+
+// What MIN_AREA should be from now on. Rises while records overflow and falls
+// while they are far from full, so that grass does not push the pad out.
+uint32_t app_min_area_px(const struct app *app);
 
 // Bytes that arrived on a link.
 void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us);

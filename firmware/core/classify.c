@@ -38,20 +38,24 @@ struct range {
 // What photographs of the real pad need: blur and the opening of the mask take
 // from thin shapes first, so areas of ring and small ring vary most.
 static const struct range solid_invariant = {10.5, 13.2};
-static const struct range ring_invariant = {2.0, 4.4};
+static const struct range ring_invariant = {1.6, 4.4};
 static const struct range small_ring_invariant = {6.5, 13.2};
 static const struct range square_to_rectangle_area = {0.36, 0.68};
-static const struct range square_to_ring_area = {0.08, 0.24};
+static const struct range square_to_ring_area = {0.07, 0.24};
 static const struct range small_ring_to_rectangle_area = {0.06, 0.26};
 // Standard deviations of the rectangle, along the line, from it to the square: 7.18.
 static const struct range baseline_to_rectangle = {5.9, 8.6};
-static const struct range baseline_to_ring = {1.05, 1.6};
+static const struct range baseline_to_ring = {1.0, 1.6};
 static const struct range square_to_rectangle_variance = {0.55, 1.8};
 // Distance of a centre from where it should be, as a part of the baseline.
-#define RING_CENTRE_TOLERANCE 0.15
+#define RING_CENTRE_TOLERANCE 0.35
 #define SMALL_RING_CENTRE_TOLERANCE 0.08
-// A candidate with the ring wins over one without, unless it is far worse.
-#define NO_RING_ERROR 1.0
+// Without the ring the pad is so close that the inner shapes are large and sharp:
+// then all of them must be nearly ideal. Grass has small shapes of any ratio.
+#define NO_RING_SMALL_RING_AREA_MIN_PX 150.0
+#define NO_RING_ERROR_MAX 0.15
+// Makes any candidate with the ring better than any without.
+#define NO_RING_PENALTY 10.0
 
 enum { SOLID = 1, RING = 2, SMALL_RING = 4 };
 
@@ -193,10 +197,16 @@ static bool consider(const struct classify_scratch *scratch, const struct pair *
     const struct best ring = best_of(scratch, pair, RING, ring_error);
     const struct best small_ring = best_of(scratch, pair, SMALL_RING, small_ring_error);
 
-    if (ring.shape == NULL && small_ring.shape == NULL) {
-        return found;
+    double error = pair->error + ring.error;
+
+    if (ring.shape == NULL) {
+        error = pair->error + small_ring.error;
+        if (small_ring.shape == NULL || small_ring.shape->area_px < NO_RING_SMALL_RING_AREA_MIN_PX ||
+            error > NO_RING_ERROR_MAX) {
+            return found;
+        }
+        error += NO_RING_PENALTY;
     }
-    const double error = pair->error + (ring.shape != NULL ? ring.error : NO_RING_ERROR + small_ring.error);
     if (found && error >= pad->error) {
         return found;
     }

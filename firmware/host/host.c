@@ -29,6 +29,11 @@ int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us)
     return app_on_record(&app, &record, size, now_us);
 }
 
+uint32_t touchdown_min_area(void)
+{
+    return app_min_area_px(&app);
+}
+
 void touchdown_on_bytes(int link, const uint8_t *bytes, size_t size, uint64_t now_us)
 {
     app_on_bytes(&app, link == TOUCHDOWN_AUTOPILOT ? APP_LINK_AUTOPILOT : APP_LINK_GROUND, bytes, size, now_us);

@@ -20,6 +20,9 @@ void touchdown_init(touchdown_write write, void *context, uint64_t now_us);
 // or a negative number (core/record.h) when it is rejected.
 int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us);
 
+// What the firmware would now write into MIN_AREA, in pixels.
+uint32_t touchdown_min_area(void);
+
 // Bytes that the other end of a link sent.
 void touchdown_on_bytes(int link, const uint8_t *bytes, size_t size, uint64_t now_us);
 
