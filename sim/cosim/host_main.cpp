@@ -71,7 +71,7 @@ private:
         model_.write(LANDING_REG_RING_BASE_OFFSET, RamBoard::RING_ADDRESS);
         model_.write(LANDING_REG_FRAME_SIZE_OFFSET, frames_.height() << 16 | frames_.width());
         model_.write(LANDING_REG_THRESHOLD_OFFSET, BOARD_THRESHOLD_FACTOR);
-        model_.write(LANDING_REG_MIN_AREA_OFFSET, BOARD_MIN_AREA_PX);
+        model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
         model_.write(LANDING_REG_LIDAR_CTRL_OFFSET, LANDING_REG_LIDAR_CTRL_ENABLE_MASK);
         model_.write(LANDING_REG_IRQ_ENABLE_OFFSET, LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK);
         model_.write(LANDING_REG_CTRL_OFFSET, LANDING_REG_CTRL_DARK_IS_ONE_MASK | LANDING_REG_CTRL_ENABLE_MASK);
@@ -84,6 +84,7 @@ private:
         board_.read_memory(RamBoard::RING_ADDRESS + head * LANDING_RING_STRIDE_BYTES,
                            reinterpret_cast<uint8_t*>(&record), sizeof record);
         touchdown_on_record(&record, sizeof record, now_us());
+        model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
     }
 
     void tick() {
