@@ -40,7 +40,8 @@ module rgb2gray (
   reg  [22:0] red_green_reg;
   reg  [22:0] blue_half_reg;
   reg  [ 7:0] gray_reg;
-  wire [22:0] sum = red_green_reg + blue_half_reg;
+  wire [ 7:0] gray;
+  wire [14:0] unused_fraction;
 
   // {tuser, tlast} beside the arithmetic.
   reg  [ 1:0] markers_1_reg;
@@ -48,7 +49,8 @@ module rgb2gray (
   reg  [ 1:0] markers_3_reg;
   reg  [ 2:0] valid_reg;
 
-  assign s_axis_tready = advance;
+  assign {gray, unused_fraction} = red_green_reg + blue_half_reg;
+  assign s_axis_tready           = advance;
 
   always @(posedge clk) begin
     if (advance) begin
@@ -57,7 +59,7 @@ module rgb2gray (
       blue_reg      <= s_axis_tdata[7:0] * BLUE_WEIGHT;
       red_green_reg <= {1'b0, red_reg} + green_reg;
       blue_half_reg <= {3'b0, blue_reg} + HALF;
-      gray_reg      <= sum[22:15];
+      gray_reg      <= gray;
       markers_1_reg <= {s_axis_tuser, s_axis_tlast};
       markers_2_reg <= markers_1_reg;
       markers_3_reg <= markers_2_reg;

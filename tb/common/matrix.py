@@ -255,3 +255,32 @@ def _is_start_of(beats: list[Taken], frame: SentFrame, core: VideoCore) -> bool:
         if newest >= len(frame.pixels) or beat.data != expected[index]:
             return False
     return True
+
+
+async def check_latency(dut: HierarchyObject, core: VideoCore, cycles: int, flush_lines: int) -> None:
+    """Assert the documented latency and throughput, at full speed.
+
+    Each output pixel must leave `cycles` after the newest pixel it depends on was taken (on the border: after the cycle
+    in which that pixel would have been taken, were the frame larger), and the next frame must be taken `flush_lines` x
+    width cycles after the last pixel.
+    """
+    bench = await start(dut, _seeded("latency"), "full_speed")
+    width, height = core.limits.min_width + 8, core.limits.min_height + 6
+    beats = _frame(bench.rng, core, (width, height)) * 2
+    await send_and_check(bench, core, beats)
+    pixels = width * height
+    for frame in range(2):
+        first = bench.input.taken[frame * pixels].cycle
+        for index in range(pixels):
+            entered = bench.input.taken[frame * pixels + index].cycle - first
+            assert entered == index, f"frame {frame}: pixel {index} was taken {entered - index} cycles late; {where()}"
+            expected = index + core.reach * (width + 1) + cycles
+            left = bench.sink.taken[frame * pixels + index].cycle - first
+            assert left == expected, (
+                f"frame {frame}: pixel {index} left {left} cycles after the first was taken, documented {expected} "
+                f"({core.reach} lines, {core.reach} pixels and {cycles} cycles); {where()}"
+            )
+    pause = bench.input.taken[pixels].cycle - bench.input.taken[pixels - 1].cycle - 1
+    assert pause == flush_lines * width, (
+        f"the input stalled {pause} cycles after a frame, documented {flush_lines} x {width}; {where()}"
+    )

@@ -171,10 +171,14 @@ def _tail(path: Path, lines: int = 30) -> str:
 
 
 def _failures(log: Path) -> str:
-    """Return the lines of a test log that tell why tests failed."""
-    lines = log.read_text(errors="replace").splitlines()
-    wanted = [line for line in lines if "AssertionError:" in line or " FAIL " in line or "Error:" in line]
-    return "\n".join(wanted[:20]) or _tail(log)
+    """Return the names of the tests that failed, each with the sentence that says why."""
+    lines = []
+    for line in log.read_text(errors="replace").splitlines():
+        if line.endswith(" failed") or " failed with " in line or line.endswith("errored"):
+            lines.append(line.split("cocotb.regression")[-1].strip())
+        elif "Error: " in line:
+            lines.append("  " + line.strip())
+    return "\n".join(lines[:12]) or _tail(log)
 
 
 def main() -> int:

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame contract of docs/design.md, once for every video core: says of each
+// beat whether it belongs to a good frame, and where in it.
+//
+// beat is the handshake (tvalid && tready); beat_user and beat_last are the
+// markers of that beat. accept and what follows it are combinational and speak
+// of the same beat; they mean nothing while beat is 0.
+//
+// Latency     0 cycles; frame_error comes 1 cycle after its beat.
+// Throughput  1 beat a cycle.
+// Limits      cfg_width, cfg_height are sampled with the start of frame. A frame
+//             whose configured size is outside MIN_* to MAX_* is malformed from
+//             its first pixel on.
+
+`default_nettype none
+
+module frame_tracker #(
+    parameter MIN_WIDTH  = 1,
+    parameter MIN_HEIGHT = 1,
+    parameter MAX_WIDTH  = 1280,
+    parameter MAX_HEIGHT = 720
+) (
+    input  wire        clk,
+    input  wire        rst,
+    input  wire [15:0] cfg_width,
+    input  wire [15:0] cfg_height,
+    input  wire        beat,
+    input  wire        beat_user,
+    input  wire        beat_last,
+    output wire        accept,       // the beat is pixel (x, y) of a frame that is good so far
+    output wire        sof,          // ... the first of its frame
+    output wire        sol,          // ... the first of its line
+    output wire        eol,          // ... the last of its line
+    output wire        eof,          // ... the last of its frame
+    output wire [15:0] x,
+    output wire [15:0] y,
+    output wire [15:0] last_x,       // width - 1 and height - 1 of the frame that was
+    output wire [15:0] last_y,       // started last; valid from the cycle after its sof
+    output reg         frame_error   // one cycle: a frame was cut off, or beats follow a complete one
+);
+
+  // Bits of an index below count ($clog2 came only with Verilog-2005).
+  function integer index_bits;
+    input integer count;
+    begin
+      index_bits = 1;
+      while ((1 << index_bits) < count) index_bits = index_bits + 1;
+    end
+  endfunction
+
+  localparam X_BITS = index_bits(MAX_WIDTH);
+  localparam Y_BITS = index_bits(MAX_HEIGHT);
+
+  generate
+    if (MIN_WIDTH < 1 || MAX_WIDTH < MIN_WIDTH || MAX_WIDTH > 65535) begin : g_width
+      ERROR_max_width_must_be_at_least_the_least_width_and_fit_16_bits error_instance ();
+    end
+    if (MIN_HEIGHT < 1 || MAX_HEIGHT < MIN_HEIGHT || MAX_HEIGHT > 65535) begin : g_height
+      ERROR_max_height_must_be_at_least_the_least_height_and_fit_16_bits error_instance ();
+    end
+  endgenerate
+
+  localparam [15:0] LEAST_WIDTH = MIN_WIDTH[15:0];
+  localparam [15:0] LEAST_HEIGHT = MIN_HEIGHT[15:0];
+  localparam [15:0] WIDTH_SPAN = MAX_WIDTH[15:0] - LEAST_WIDTH;
+  localparam [15:0] HEIGHT_SPAN = MAX_HEIGHT[15:0] - LEAST_HEIGHT;
+
+  // SILENT: the fault, if any, is reported; everything up to the next start is dropped.
+  // FRAME: within a good frame. DONE: after the last pixel of a complete frame.
+  localparam [1:0] SILENT = 2'd0;
+  localparam [1:0] FRAME = 2'd1;
+  localparam [1:0] DONE = 2'd2;
+
+  reg  [       1:0] state_reg;
+  reg  [X_BITS-1:0] x_reg;
+  reg  [Y_BITS-1:0] y_reg;
+  reg               sol_reg;
+  reg  [X_BITS-1:0] last_x_reg;
+  reg  [Y_BITS-1:0] last_y_reg;
+
+  wire [      15:0] cfg_last_x = cfg_width - 16'd1;
+  wire [      15:0] cfg_last_y = cfg_height - 16'd1;
+  // A size below the least wraps and is refused with those above the greatest.
+  wire [      15:0] width_above_least = cfg_width - LEAST_WIDTH;
+  wire [      15:0] height_above_least = cfg_height - LEAST_HEIGHT;
+  wire              size_ok = width_above_least <= WIDTH_SPAN && height_above_least <= HEIGHT_SPAN;
+
+  wire              at_last_x = beat_user ? cfg_last_x == 16'd0 : x_reg == last_x_reg;
+  wire              at_last_y = beat_user ? cfg_last_y == 16'd0 : y_reg == last_y_reg;
+  wire              in_frame = beat_user ? size_ok : state_reg == FRAME;
+
+  assign accept = beat && in_frame && beat_last == at_last_x;
+  assign sof    = beat_user;
+  assign sol    = beat_user || sol_reg;
+  assign eol    = at_last_x;
+  assign eof    = at_last_x && at_last_y;
+  assign x      = beat_user ? 16'd0 : {{(16 - X_BITS) {1'b0}}, x_reg};
+  assign y      = beat_user ? 16'd0 : {{(16 - Y_BITS) {1'b0}}, y_reg};
+  assign last_x = {{(16 - X_BITS) {1'b0}}, last_x_reg};
+  assign last_y = {{(16 - Y_BITS) {1'b0}}, last_y_reg};
+
+  always @(posedge clk) begin
+    frame_error <= 1'b0;
+
+    if (beat) begin
+      if (beat_user) begin
+        last_x_reg <= cfg_last_x[X_BITS-1:0];
+        last_y_reg <= cfg_last_y[Y_BITS-1:0];
+      end
+      sol_reg <= at_last_x;
+      x_reg   <= at_last_x ? {X_BITS{1'b0}} : x[X_BITS-1:0] + 1'b1;
+      y_reg   <= at_last_x ? y[Y_BITS-1:0] + 1'b1 : y[Y_BITS-1:0];
+
+      if (accept) state_reg <= eof ? DONE : FRAME;
+      else state_reg <= SILENT;
+
+      // An early start and a fault in its own first beat are one event.
+      if (beat_user) frame_error <= !accept || state_reg == FRAME;
+      else frame_error <= !accept && state_reg != SILENT;
+    end
+
+    if (rst) begin
+      state_reg   <= SILENT;
+      frame_error <= 1'b0;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binary dilate 3x3, equal to cv2.dilate with a 3x3 box: 1 where any of the 9 pixels around is 1.
+//
+// Latency     1 line, 1 pixel and 5 cycles.
+// Throughput  1 pixel a cycle; s_axis_tready is 0 for width cycles after the
+//             last pixel of a frame.
+// Borders     pixels outside the frame do not count (they read as 0).
+// Rounding    none; one bit cannot overflow.
+// Frames      the contract of docs/design.md.
+// Limits      2x1 to MAX_WIDTH x MAX_HEIGHT.
+
+`default_nettype none
+
+module dilate3x3 #(
+    parameter MAX_WIDTH  = 1280,
+    parameter MAX_HEIGHT = 720
+) (
+    input  wire        clk,
+    input  wire        rst,
+    input  wire [15:0] cfg_width,
+    input  wire [15:0] cfg_height,
+    input  wire        s_axis_tdata,
+    input  wire        s_axis_tvalid,
+    output wire        s_axis_tready,
+    input  wire        s_axis_tuser,
+    input  wire        s_axis_tlast,
+    output wire        m_axis_tdata,
+    output wire        m_axis_tvalid,
+    input  wire        m_axis_tready,
+    output wire        m_axis_tuser,
+    output wire        m_axis_tlast,
+    output wire        frame_error
+);
+
+  localparam CONSTANT = 2;
+  localparam [0:0] OUTSIDE = 1'b0;
+
+  wire       advance;
+
+  wire       column_valid;
+  wire       column_sof;
+  wire       column_first;
+  wire       column_last;
+  wire [2:0] column;
+
+  wire       window_valid;
+  wire       window_sof;
+  wire       window_last;
+  wire [2:0] window;
+
+  window_rows #(
+      .TAPS      (3),
+      .DATA_WIDTH(1),
+      .BORDER    (CONSTANT),
+      .VALUE     (OUTSIDE),
+      .MAX_WIDTH (MAX_WIDTH),
+      .MAX_HEIGHT(MAX_HEIGHT)
+  ) rows (
+      .clk          (clk),
+      .rst          (rst),
+      .cfg_width    (cfg_width),
+      .cfg_height   (cfg_height),
+      .s_axis_tdata (s_axis_tdata),
+      .s_axis_tvalid(s_axis_tvalid),
+      .s_axis_tready(s_axis_tready),
+      .s_axis_tuser (s_axis_tuser),
+      .s_axis_tlast (s_axis_tlast),
+      .advance      (advance),
+      .column_valid (column_valid),
+      .column_sof   (column_sof),
+      .column_first (column_first),
+      .column_last  (column_last),
+      .column       (column),
+      .frame_error  (frame_error)
+  );
+
+  window_cols #(
+      .TAPS      (3),
+      .DATA_WIDTH(1),
+      .BORDER    (CONSTANT),
+      .VALUE     (OUTSIDE)
+  ) cols (
+      .clk         (clk),
+      .rst         (rst),
+      .advance     (advance),
+      .column_valid(column_valid),
+      .column_sof  (column_sof),
+      .column_first(column_first),
+      .column_last (column_last),
+      .column      (|column),
+      .window_valid(window_valid),
+      .window_sof  (window_sof),
+      .window_last (window_last),
+      .window      (window)
+  );
+
+  axis_skid #(
+      .WIDTH(3)
+  ) output_slice (
+      .clk      (clk),
+      .rst      (rst),
+      .s_payload({window_sof, window_last, |window}),
+      .s_valid  (window_valid),
+      .s_ready  (advance),
+      .m_payload({m_axis_tuser, m_axis_tlast, m_axis_tdata}),
+      .m_valid  (m_axis_tvalid),
+      .m_ready  (m_axis_tready)
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""gaussian5x5: the frame contract matrix, resets, and latency."""
+
+import cocotb
+from cocotb.handle import HierarchyObject
+
+from golden.gaussian5x5 import gaussian5x5
+from tb.common.contract import SizeLimits
+from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, run_reset, run_scene
+from tb.common.run import parameter
+
+LIMITS = SizeLimits(3, 3, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
+CORE = VideoCore(golden=gaussian5x5, bits_in=8, reach=2, limits=LIMITS)
+LATENCY = 14
+
+
+@cocotb.test()
+@cocotb.parametrize(scene=list(SCENES), stall=list(STALLS))
+async def frame_contract(dut: HierarchyObject, scene: str, stall: str) -> None:
+    await run_scene(dut, CORE, scene, stall)
+
+
+@cocotb.test()
+@cocotb.parametrize(stall=list(STALLS))
+async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
+    await run_reset(dut, CORE, stall)
+
+
+@cocotb.test()
+async def latency_and_throughput(dut: HierarchyObject) -> None:
+    await check_latency(dut, CORE, cycles=LATENCY, flush_lines=2)
