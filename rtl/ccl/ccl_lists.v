@@ -24,7 +24,7 @@ module ccl_lists #(
     input wire restart,    // forget everything
     input wire end_above,  // the run p ends in this column
     input wire end_here,   // the run c ends in this column
-    input wire touch,      // p and c are 8-connected
+    input wire touch,      // p and c are 8-connected; only with one of the two above
 
     output wire [SLOT_BITS-1:0] above,  // p
 
@@ -89,7 +89,7 @@ module ccl_lists #(
             joined_first   = y_current_reg ? y_first_reg : c_reg;
             link_enable    = y_current_reg;
         end
-        link_enable = link_enable && touch && (end_above || end_here);
+        link_enable = link_enable && touch;
     end
 
     // Where the class goes when the event leaves it without an active run.
@@ -177,14 +177,14 @@ module ccl_lists #(
     wire event_valid = end_above || end_here;
 
     always @(posedge clk) begin
-        load          <= event_valid && (fetch || (touch && x_active_reg && !x_is_y));
-        load_slot     <= p_reg;
-        keep          <= !(event_valid && (fetch || fresh));
-        add_run       <= end_here;
-        complete      <= complete_now;
-        save          <= event_valid && (fetch || fresh) && held_reg;
-        save_slot     <= held_home_reg;
-        held_home_reg <= home;
+        load      <= event_valid && (fetch || (touch && x_active_reg && !x_is_y));
+        load_slot <= p_reg;
+        keep      <= !(event_valid && (fetch || fresh));
+        add_run   <= end_here;
+        complete  <= complete_now;
+        save      <= event_valid && (fetch || fresh) && held_reg;
+        save_slot <= held_home_reg;
+        if (event_valid) held_home_reg <= home;
     end
 
     always @(posedge clk) begin

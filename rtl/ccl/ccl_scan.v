@@ -55,6 +55,8 @@ module ccl_scan #(
     wire right_above = a_above && !b_last_reg;
     wire ends_here = b_here_reg && !right_here;
     wire ends_above = b_above_reg && !right_above;
+    wire near_here = b_here_reg || right_here;
+    wire near_above = b_above_reg || right_above;
 
     // Runs that the current line has ended, then those that the flush after the last line has left.
     reg [X_BITS-1:0] runs_reg;
@@ -79,7 +81,6 @@ module ccl_scan #(
         column_last  <= b_last_reg;
         column_set   <= b_here_reg;
         column_begin <= b_begin_reg;
-        touch        <= !flush_reg && (b_here_reg || right_here) && (b_above_reg || right_above);
     end
 
     always @(posedge clk) begin
@@ -87,6 +88,7 @@ module ccl_scan #(
         column    <= run && b_done;
         end_above <= run && (flush_run || (b_done && ends_above));
         end_here  <= run && b_done && ends_here;
+        touch     <= run && b_done && (ends_here || ends_above) && near_here && near_above;
         end_frame <= run && flush_reg && !flush_run;
         if (run) begin
             a_valid_reg <= pixel_valid;
@@ -103,6 +105,7 @@ module ccl_scan #(
             column      <= 1'b0;
             end_above   <= 1'b0;
             end_here    <= 1'b0;
+            touch       <= 1'b0;
             end_frame   <= 1'b0;
             a_valid_reg <= 1'b0;
             b_valid_reg <= 1'b0;

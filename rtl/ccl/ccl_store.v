@@ -38,7 +38,7 @@ module ccl_store #(
     input wire                 end_frame,
 
     input wire [RECORD_BITS-1:0] run_record,  // stage 2
-    input wire [           31:0] min_area,
+    input wire [           31:0] min_area,    // of the frame that starts next; counts from its start_frame on
 
     output reg                    found,
     output reg                    found_start,  // start of frame
@@ -125,6 +125,12 @@ module ccl_store #(
         found_record    <= accumulator_reg;
     end
 
+    // Components of a frame that was cut off are still on their way when the next one starts.
+    reg [31:0] min_area_4_reg;
+    always @(posedge clk) begin
+        if (start_4_reg) min_area_4_reg <= min_area;
+    end
+
     wire [31:0] area_4 = {{(32 - AREA_BITS) {1'b0}}, accumulator_reg[AREA_BITS-1:0]};
 
     always @(posedge clk) begin
@@ -143,7 +149,7 @@ module ccl_store #(
         start_4_reg    <= start_3_reg;
         end_4_reg      <= end_3_reg;
 
-        found          <= complete_4_reg && area_4 >= min_area;
+        found          <= complete_4_reg && area_4 >= min_area_4_reg;
         found_start    <= start_4_reg;
         found_end      <= end_4_reg;
         if (rst) begin
