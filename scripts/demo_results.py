@@ -106,6 +106,8 @@ def collect(frames: FrameSet, counted: list[int], shown: list[Frame], autopilot:
     targets = {message.fields["time_usec"]: message for message in autopilot.of("LANDING_TARGET")}
     rows = []
     for name, truth, showing in zip(frames.names, frames.truths, counted, strict=True):
+        if showing >= len(shown):
+            raise UserError(f"frame {name} was not shown; look at the log of the run.")
         record = shown[showing].record
         if record is None:
             raise UserError(f"the hardware wrote no result record for frame {name}; look at the log of the run.")
