@@ -6,7 +6,7 @@ A test module needs no more than this::
     CORE = VideoCore(golden=erode3x3, bits_in=1, reach=1, limits=SizeLimits(2, 1, MAX_WIDTH, MAX_HEIGHT))
 
     @cocotb.test()
-    @cocotb.parametrize(scene=list(SCENES), stall=list(STALLS))
+    @cocotb.parametrize(scene=named(SCENES), stall=named(STALLS))
     async def frame_contract(dut, scene, stall):
         await run_scene(dut, CORE, scene, stall)
 
@@ -17,6 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random, getrandbits
 
+import cocotb
 import numpy as np
 from cocotb.handle import HierarchyObject
 
@@ -48,6 +49,11 @@ class VideoCore:
 STALLS = {"full_speed": (0.0, 0.0), "idle": (0.5, 0.0), "backpressure": (0.0, 0.5), "idle_backpressure": (0.4, 0.4)}
 
 Scene = Callable[[Random, VideoCore], list[Beat]]
+
+
+def named(table: dict[str, object]) -> list[cocotb.Param]:
+    """Return options for `cocotb.parametrize`: the keys, spelled out in the names of the tests."""
+    return [cocotb.Param(value=key, name=key) for key in table]
 
 
 def random_size(rng: Random, core: VideoCore) -> tuple[int, int]:
@@ -83,6 +89,7 @@ def _sizes(rng: Random, core: VideoCore) -> list[Beat]:
     widths = [limits.min_width + step for step in range(5)]
     heights = [limits.min_height + step for step in range(5)]
     sizes = [(width, height) for width in widths for height in heights]
+    sizes += [(limits.max_width, limits.min_height + 2), (limits.min_width, limits.max_height)]
     if limits.max_width * limits.max_height <= 4096:
         sizes += [(limits.max_width, limits.max_height)] * 2
     rng.shuffle(sizes)

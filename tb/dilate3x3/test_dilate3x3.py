@@ -6,7 +6,7 @@ from cocotb.handle import HierarchyObject
 
 from golden.dilate3x3 import dilate3x3
 from tb.common.contract import SizeLimits
-from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, run_reset, run_scene
+from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, named, run_reset, run_scene
 from tb.common.run import parameter
 
 LIMITS = SizeLimits(2, 1, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
@@ -15,13 +15,13 @@ LATENCY = 5
 
 
 @cocotb.test()
-@cocotb.parametrize(scene=list(SCENES), stall=list(STALLS))
+@cocotb.parametrize(scene=named(SCENES), stall=named(STALLS))
 async def frame_contract(dut: HierarchyObject, scene: str, stall: str) -> None:
     await run_scene(dut, CORE, scene, stall)
 
 
 @cocotb.test()
-@cocotb.parametrize(stall=list(STALLS))
+@cocotb.parametrize(stall=named(STALLS))
 async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
     await run_reset(dut, CORE, stall)
 

@@ -9,7 +9,7 @@ from cocotb.handle import HierarchyObject
 
 from golden.rgb2gray import rgb2gray
 from tb.common.compare import check_frame
-from tb.common.matrix import STALLS, start
+from tb.common.matrix import STALLS, named, start
 from tb.common.patterns import random_frame
 from tb.common.run import where
 from tb.common.stream import Beat, StreamBench, frame_beats, split_frames
@@ -37,7 +37,7 @@ def corner_frame() -> np.ndarray:
 
 
 @cocotb.test()
-@cocotb.parametrize(stall=list(STALLS))
+@cocotb.parametrize(stall=named(STALLS))
 async def frames_back_to_back(dut: HierarchyObject, stall: str) -> None:
     rng = Random(getrandbits(64))
     bench = await start(dut, rng, stall)
@@ -51,7 +51,7 @@ async def frames_back_to_back(dut: HierarchyObject, stall: str) -> None:
 
 
 @cocotb.test()
-@cocotb.parametrize(stall=list(STALLS))
+@cocotb.parametrize(stall=named(STALLS))
 async def markers_travel_with_their_pixel(dut: HierarchyObject, stall: str) -> None:
     """Any sequence of markers, legal or not, leaves as it came."""
     rng = Random(getrandbits(64))
@@ -76,7 +76,7 @@ async def latency(dut: HierarchyObject) -> None:
 
 
 @cocotb.test()
-@cocotb.parametrize(stall=list(STALLS))
+@cocotb.parametrize(stall=named(STALLS))
 async def reset_drops_what_is_inside(dut: HierarchyObject, stall: str) -> None:
     rng = Random(getrandbits(64))
     bench = await start(dut, rng, stall)
