@@ -13,55 +13,69 @@
 #define CENTRE_FRACTION (RECTANGLE_CENTRE_Y_MM / BASELINE_MM)
 #define SMALL_RING_PRECISE_AREA_PX 300.0
 
+// Along any axis, of a ring of uniform density: (outer^2 + inner^2) / 4.
+#define RING_VARIANCE_MM2                                                                                              \
+    ((RING_OUTER_RADIUS_MM * RING_OUTER_RADIUS_MM + RING_INNER_RADIUS_MM * RING_INNER_RADIUS_MM) / 4.0)
+#define SMALL_RING_VARIANCE_MM2                                                                                        \
+    ((SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM +                                                        \
+      SMALL_RING_INNER_RADIUS_MM * SMALL_RING_INNER_RADIUS_MM) /                                                       \
+     4.0)
+
 static double length_of(double right, double forward)
 {
     return sqrt(right * right + forward * forward);
 }
 
-// Height at which the ring has its size. The axis with the largest image is
-// the one that tilt shortens least. Both ends are mapped, not a derivative: a
-// close ring spans a third of the image.
+// Height at which the ring has its size, measured across the line that leads to
+// it from the optical axis: there, neither a level pad beside the axis nor one
+// that only a tilt has moved off the axis is stretched or shortened. Both ends
+// are mapped, not a derivative: a close ring spans a third of the image.
 static bool height_from_ring(const struct shape *ring, const struct camera *camera, double *height_m)
 {
     // A uniform ring has the same covariance as a thin one of this radius.
-    const double radius_mm = sqrt(
-        (RING_OUTER_RADIUS_MM * RING_OUTER_RADIUS_MM + RING_INNER_RADIUS_MM * RING_INNER_RADIUS_MM) / 2.0);
-    double deviations[2];
-    struct vector axis;
-    double diameter = 0.0;
+    const double radius_mm = sqrt(2.0 * RING_VARIANCE_MM2);
+    const double x = ring->x_px - camera->centre_x_px;
+    const double y = ring->y_px - camera->centre_y_px;
+    const double distance = length_of(x, y);
+    const struct vector across = {.x = distance > 0.0 ? -y / distance : 1.0, .y = distance > 0.0 ? x / distance : 0.0};
+    const double variance = across.x * across.x * ring->cov_xx + 2.0 * across.x * across.y * ring->cov_xy +
+                            across.y * across.y * ring->cov_yy;
+    const double reach = sqrt(2.0 * variance);
+    struct camera_ray a;
+    struct camera_ray b;
 
-    shape_axes(ring, &deviations[0], &deviations[1], &axis);
-    for (int i = 0; i < 2; i++) {
-        const double reach = deviations[i] * sqrt(2.0);
-        const double x = reach * (i == 0 ? axis.x : -axis.y);
-        const double y = reach * (i == 0 ? axis.y : axis.x);
-        struct camera_ray a;
-        struct camera_ray b;
-        if (camera_unproject(camera, ring->x_px + x, ring->y_px + y, &a) != 0 ||
-            camera_unproject(camera, ring->x_px - x, ring->y_px - y, &b) != 0) {
-            return false;
-        }
-        diameter = fmax(diameter, length_of(a.right - b.right, a.forward - b.forward));
+    if (camera_unproject(camera, ring->x_px + reach * across.x, ring->y_px + reach * across.y, &a) != 0 ||
+        camera_unproject(camera, ring->x_px - reach * across.x, ring->y_px - reach * across.y, &b) != 0) {
+        return false;
     }
-    *height_m = 2.0 * radius_mm * METRES_PER_MM / diameter;
+    *height_m = 2.0 * radius_mm * METRES_PER_MM / length_of(a.right - b.right, a.forward - b.forward);
     return true;
 }
 
-// Where the image of the centre is, seen from the rectangle's centroid.
-//
-// A tilted plane magnifies its near side, so the point that divides the line
-// between the centroids as the centre does on the pad is not the centre's image.
-// To second order, with perspective g (relative change of scale for each mm):
-// the ring's centroid moves by -4 V g (V its variance along an axis: once for the
-// positions and three times for the area that each of them gets), and the
-// dividing point by -a b g along the line (a, b the distances to both centroids).
-// So a known part of what lies between the two is the error.
+// A tilted plane magnifies its near side, which moves centroids. To second order,
+// with perspective g (relative change of scale for each mm), a shape of variance
+// V along an axis has its centroid moved by -4 V g: once by the positions and
+// three times by the area that each of them gets. The ring moves 71 times as far
+// as the small ring; what lies between them is therefore known, and so is g.
+static struct vector centre_from_small_ring(const struct pad_shapes *pad)
+{
+    const double part = SMALL_RING_VARIANCE_MM2 / (RING_VARIANCE_MM2 - SMALL_RING_VARIANCE_MM2);
+    struct vector centre = shape_offset(&pad->rectangle, &pad->small_ring);
+
+    if (pad->has_ring) {
+        const struct vector ring = shape_offset(&pad->small_ring, &pad->ring);
+        centre.x -= part * ring.x;
+        centre.y -= part * ring.y;
+    }
+    return centre;
+}
+
+// The point that divides the line between the two centroids as the centre does on
+// the pad is moved too: by -a b g along the line (a, b the distances to both).
 static struct vector centre_from_line(const struct pad_shapes *pad)
 {
-    const double ring_variance =
-        (RING_OUTER_RADIUS_MM * RING_OUTER_RADIUS_MM + RING_INNER_RADIUS_MM * RING_INNER_RADIUS_MM) / 4.0;
     const double line_product = -SQUARE_CENTRE_Y_MM * RECTANGLE_CENTRE_Y_MM;
-    const double part = line_product / (4.0 * ring_variance - line_product);
+    const double part = line_product / (4.0 * RING_VARIANCE_MM2 - line_product);
     const struct vector line = shape_offset(&pad->rectangle, &pad->square);
     double fraction = CENTRE_FRACTION;
 
@@ -83,14 +97,12 @@ int pad_pose_estimate(const struct pad_shapes *pad, const struct camera *camera,
 
     // The small ring lies on the centre itself: nothing has to be divided. When it
     // is far away its few pixels are noisier than the line.
-    if (pad->has_small_ring && (!pad->has_ring || pad->small_ring.area_px >= SMALL_RING_PRECISE_AREA_PX)) {
-        pose->x_px = pad->small_ring.x_px;
-        pose->y_px = pad->small_ring.y_px;
-    } else {
-        const struct vector centre = centre_from_line(pad);
-        pose->x_px = pad->rectangle.x_px + centre.x;
-        pose->y_px = pad->rectangle.y_px + centre.y;
-    }
+    const bool precise =
+        pad->has_small_ring && (!pad->has_ring || pad->small_ring.area_px >= SMALL_RING_PRECISE_AREA_PX);
+    const struct vector centre = precise ? centre_from_small_ring(pad) : centre_from_line(pad);
+
+    pose->x_px = pad->rectangle.x_px + centre.x;
+    pose->y_px = pad->rectangle.y_px + centre.y;
     if (camera_unproject(camera, pose->x_px, pose->y_px, &pose->ray) != 0 ||
         camera_unproject(camera, pad->square.x_px, pad->square.y_px, &square) != 0 ||
         camera_unproject(camera, pad->rectangle.x_px, pad->rectangle.y_px, &rectangle) != 0) {

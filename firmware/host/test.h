@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The least that a unit test needs: checks that print what they saw, and go on.
+#ifndef TOUCHDOWN_TEST_H
+#define TOUCHDOWN_TEST_H
+
+#include <stdbool.h>
+
+void test_check(bool ok, const char *file, int line, const char *text);
+void test_near(double got, double expected, double tolerance, const char *file, int line, const char *text);
+
+#define CHECK(condition) test_check((condition), __FILE__, __LINE__, #condition)
+#define NEAR(got, expected, tolerance) test_near((got), (expected), (tolerance), __FILE__, __LINE__, #got)
+
+// What the checks that follow are about; printed with a failure.
+void test_case(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+void test_app(void);
+void test_byte_ring(void);
+void test_camera(void);
+void test_classify(void);
+void test_fusion(void);
+void test_pad_pose(void);
+void test_record(void);
+void test_shapes(void);
+void test_uart_baud(void);
+
+#endif

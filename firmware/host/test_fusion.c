@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <stddef.h>
+
+#include "fusion.h"
+#include "test.h"
+
+static struct lidar_reading reading(uint32_t distance_mm, uint32_t age_us)
+{
+    const struct lidar_reading lidar = {.valid = true, .distance_mm = distance_mm, .age_us = age_us};
+
+    return lidar;
+}
+
+void test_fusion(void)
+{
+    const struct pad_pose pose = {.height_m = 1.0};
+    struct lidar_reading lidar = reading(1050, 1000);
+    struct altitude altitude = fusion_altitude(&lidar, &pose);
+
+    test_case("both agree: between them, nearer the surer one");
+    CHECK(altitude.from_lidar && altitude.from_pad && !altitude.lidar_implausible);
+    CHECK(altitude.height_m > 1.025 && altitude.height_m < 1.05);
+
+    test_case("LiDAR wrong by 2");
+    lidar = reading(2000, 1000);
+    altitude = fusion_altitude(&lidar, &pose);
+    CHECK(!altitude.from_lidar && altitude.from_pad && altitude.lidar_implausible);
+    NEAR(altitude.height_m, 1.0, 0.0);
+    lidar = reading(500, 1000);
+    CHECK(fusion_altitude(&lidar, &pose).lidar_implausible);
+
+    test_case("no pad");
+    lidar = reading(12345, 1000);
+    altitude = fusion_altitude(&lidar, NULL);
+    CHECK(altitude.from_lidar && !altitude.from_pad);
+    NEAR(altitude.height_m, 12.345, 1e-9);
+
+    test_case("unusable LiDAR");
+    CHECK(fusion_lidar_usable(&lidar));
+    lidar = reading(1000, FUSION_LIDAR_MAX_AGE_US + 1U);
+    CHECK(!fusion_lidar_usable(&lidar));
+    altitude = fusion_altitude(&lidar, NULL);
+    NEAR(altitude.height_m, 0.0, 0.0);
+    CHECK(!altitude.from_lidar);
+    CHECK(fusion_altitude(&lidar, &pose).from_pad && !fusion_altitude(&lidar, &pose).lidar_implausible);
+    lidar = reading(FUSION_LIDAR_MAX_MM + 1U, 0);
+    CHECK(!fusion_lidar_usable(&lidar));
+    lidar = reading(FUSION_LIDAR_MIN_MM - 1U, 0);
+    CHECK(!fusion_lidar_usable(&lidar));
+    lidar = reading(1000, 0);
+    lidar.valid = false;
+    CHECK(!fusion_lidar_usable(&lidar));
+}

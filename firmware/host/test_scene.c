@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "test_scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "pad_geometry.h"
+
+#define RADIANS_PER_DEGREE 0.017453292519943295
+#define WIDTH 1280
+#define HEIGHT 720
+#define REACH_M 0.16 // farther than the ring's edge, tilted towards the camera
+
+static bool between(double value, double centre, double size)
+{
+    return fabs(value - centre) <= size / 2.0;
+}
+
+bool scene_ring(double x_mm, double y_mm)
+{
+    const double r = hypot(x_mm, y_mm);
+
+    return r <= RING_OUTER_RADIUS_MM && r >= RING_INNER_RADIUS_MM;
+}
+
+bool scene_square(double x_mm, double y_mm)
+{
+    return between(x_mm, SQUARE_CENTRE_X_MM, SQUARE_SIDE_MM) && between(y_mm, SQUARE_CENTRE_Y_MM, SQUARE_SIDE_MM);
+}
+
+bool scene_rectangle(double x_mm, double y_mm)
+{
+    return between(x_mm, RECTANGLE_CENTRE_X_MM, RECTANGLE_WIDTH_MM) &&
+           between(y_mm, RECTANGLE_CENTRE_Y_MM, RECTANGLE_HEIGHT_MM);
+}
+
+bool scene_small_ring(double x_mm, double y_mm)
+{
+    const double r = hypot(x_mm, y_mm);
+
+    return r <= SMALL_RING_OUTER_RADIUS_MM && r >= SMALL_RING_INNER_RADIUS_MM;
+}
+
+void scene_clear(struct landing_record *record)
+{
+    memset(record, 0, sizeof *record);
+    record->header.id_magic = LANDING_HEADER_ID_MAGIC_RESET;
+    record->header.id_version = LANDING_HEADER_ID_VERSION_RESET;
+    record->header.frame_number = 1U;
+    record->header.frame_size_width = WIDTH;
+    record->header.frame_size_height = HEIGHT;
+}
+
+struct attitude {
+    double rows[3][3];
+};
+
+// Rows are the level axes (forward, right, down) of a body-frame vector: roll
+// about forward, then pitch about right.
+static struct attitude attitude_of(const struct scene *scene)
+{
+    const double cr = cos(scene->roll_deg * RADIANS_PER_DEGREE);
+    const double sr = sin(scene->roll_deg * RADIANS_PER_DEGREE);
+    const double cp = cos(scene->pitch_deg * RADIANS_PER_DEGREE);
+    const double sp = sin(scene->pitch_deg * RADIANS_PER_DEGREE);
+    const struct attitude attitude = {{{cp, sp * sr, sp * cr}, {0.0, cr, -sr}, {-sp, cp * sr, cp * cr}}};
+
+    return attitude;
+}
+
+// Pixel to pad frame; false when it does not look at the ground.
+static bool look(const struct scene *scene, const struct attitude *attitude, int x, int y, double *x_mm, double *y_mm)
+{
+    struct camera_ray ray;
+
+    if (camera_unproject(&camera_default, x, y, &ray) != 0) {
+        return false;
+    }
+    const double body[3] = {ray.forward, ray.right, 1.0};
+    double level[3];
+    for (int i = 0; i < 3; i++) {
+        level[i] = attitude->rows[i][0] * body[0] + attitude->rows[i][1] * body[1] + attitude->rows[i][2] * body[2];
+    }
+    if (!(level[2] > 0.05)) {
+        return false;
+    }
+    const double forward_mm = (level[0] / level[2] * scene->height_m - scene->forward_m) * 1000.0;
+    const double right_mm = (level[1] / level[2] * scene->height_m - scene->right_m) * 1000.0;
+    const double c = cos(scene->heading_deg * RADIANS_PER_DEGREE);
+    const double s = sin(scene->heading_deg * RADIANS_PER_DEGREE);
+    *x_mm = c * right_mm - s * forward_mm;
+    *y_mm = -(s * right_mm + c * forward_mm);
+    return true;
+}
+
+static void add_pixel(struct landing_object *object, int x, int y)
+{
+    const uint64_t ux = (uint64_t)x;
+    const uint64_t uy = (uint64_t)y;
+
+    if (object->area == 0U) {
+        object->box_min_x = object->box_max_x = (uint16_t)x;
+        object->box_min_y = object->box_max_y = (uint16_t)y;
+    }
+    object->box_min_x = (uint16_t)(x < object->box_min_x ? x : object->box_min_x);
+    object->box_max_x = (uint16_t)(x > object->box_max_x ? x : object->box_max_x);
+    object->box_min_y = (uint16_t)(y < object->box_min_y ? y : object->box_min_y);
+    object->box_max_y = (uint16_t)(y > object->box_max_y ? y : object->box_max_y);
+    object->area++;
+    object->sum_x += ux;
+    object->sum_y += uy;
+    object->sum_xx += ux * ux;
+    object->sum_yy += uy * uy;
+    object->sum_xy += ux * uy;
+}
+
+static void append(struct landing_record *record, const struct landing_object *object)
+{
+    if (object->area != 0U && record->header.object_count < LANDING_RECORD_MAX_OBJECTS) {
+        record->objects[record->header.object_count++] = *object;
+    }
+}
+
+void scene_paint(struct landing_record *record, const struct scene *scene, scene_shape shape)
+{
+    const struct attitude attitude = attitude_of(scene);
+    struct landing_object object = {0};
+    double centre_x;
+    double centre_y;
+
+    // The rest of the frame cannot see the pad; looking there takes most of the time.
+    scene_project_centre(scene, &centre_x, &centre_y);
+    const int reach = (int)(REACH_M * camera_default.focal_px / scene->height_m);
+    for (int y = (int)fmax(centre_y - reach, 0.0); y < (int)fmin(centre_y + reach, HEIGHT); y++) {
+        for (int x = (int)fmax(centre_x - reach, 0.0); x < (int)fmin(centre_x + reach, WIDTH); x++) {
+            double x_mm;
+            double y_mm;
+            if (look(scene, &attitude, x, y, &x_mm, &y_mm) && shape(x_mm, y_mm)) {
+                add_pixel(&object, x, y);
+            }
+        }
+    }
+    append(record, &object);
+}
+
+void scene_paint_pad(struct landing_record *record, const struct scene *scene)
+{
+    scene_paint(record, scene, scene_ring);
+    scene_paint(record, scene, scene_square);
+    scene_paint(record, scene, scene_small_ring);
+    scene_paint(record, scene, scene_rectangle);
+}
+
+void scene_paint_pixels(struct landing_record *record, uint16_t x, uint16_t y, uint16_t width, uint16_t height,
+                        bool (*inside)(int x, int y))
+{
+    struct landing_object object = {0};
+
+    for (int i = 0; i < height; i++) {
+        for (int j = 0; j < width; j++) {
+            if (inside(j, i)) {
+                add_pixel(&object, x + j, y + i);
+            }
+        }
+    }
+    append(record, &object);
+}
+
+void scene_project_centre(const struct scene *scene, double *x_px, double *y_px)
+{
+    const struct attitude attitude = attitude_of(scene);
+    const double level[3] = {scene->forward_m, scene->right_m, scene->height_m};
+    double body[3];
+
+    for (int i = 0; i < 3; i++) {
+        body[i] = attitude.rows[0][i] * level[0] + attitude.rows[1][i] * level[1] + attitude.rows[2][i] * level[2];
+    }
+    const struct camera_ray ray = {.right = body[1] / body[2], .forward = body[0] / body[2]};
+    camera_project(&camera_default, &ray, x_px, y_px);
+}
