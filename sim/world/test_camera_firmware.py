@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The renderer's camera and the firmware's are inverse to each other."""
+
+import ctypes
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from sim.world.camera import Camera
+from sim.world.pose import Pose, truth_of
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCE = ROOT / "firmware" / "core" / "camera.c"
+
+
+class FirmwareCamera(ctypes.Structure):
+    """`struct camera` of firmware/core/camera.h."""
+
+    _fields_ = tuple((name, ctypes.c_double) for name in ("focal_px", "centre_x_px", "centre_y_px", "width_px"))
+
+
+class Ray(ctypes.Structure):
+    """`struct camera_ray`."""
+
+    _fields_ = tuple((name, ctypes.c_double) for name in ("right", "forward"))
+
+
+@pytest.fixture(scope="module")
+def firmware(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+    """firmware/core/camera.c, compiled for this machine."""
+    library = tmp_path_factory.mktemp("camera") / "camera.so"
+    subprocess.run(["gcc", "-shared", "-fPIC", "-O1", "-o", library, SOURCE, "-lm"], check=True)
+    loaded = ctypes.CDLL(str(library))
+    loaded.camera_unproject.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_void_p]
+    loaded.camera_scaled.argtypes = [ctypes.c_void_p, ctypes.c_double]
+    loaded.camera_scaled.restype = FirmwareCamera
+    return loaded
+
+
+@pytest.mark.parametrize("divisor", [1, 4])
+def test_firmware_inverts_the_renderer(firmware: ctypes.CDLL, divisor: int) -> None:
+    camera = Camera().scaled(divisor)
+    default = FirmwareCamera.in_dll(firmware, "camera_default")
+    scaled = firmware.camera_scaled(ctypes.byref(default), float(camera.width))
+    random = np.random.default_rng(4)
+    for right, forward, altitude in random.uniform((-3, -2, 0.3), (3, 2, 4), (300, 3)):
+        truth = truth_of(camera, Pose(altitude, right, forward))
+        ray = Ray()
+        code = firmware.camera_unproject(ctypes.byref(scaled), truth.x_px, truth.y_px, ctypes.byref(ray))
+        if code:
+            # Only what is 80 degrees or more off axis may be refused.
+            assert np.hypot(right, forward) / altitude > np.tan(np.radians(79.9))
+            continue
+        assert ray.right * altitude == pytest.approx(right, abs=1e-9)
+        assert ray.forward * altitude == pytest.approx(forward, abs=1e-9)
