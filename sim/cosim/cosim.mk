@@ -45,15 +45,15 @@ $(BUILD)/obj/%.o: sim/cosim/%.cpp $(MODEL)/Vlanding_core.mk
 $(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_plugin.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
 
-# Called without a question whether it is needed: firmware/Makefile knows.
+# firmware/Makefile knows whether its library is up to date.
 .PHONY: firmware-library
 firmware-library:
 	+$(MAKE) -C firmware host
 
-$(BUILD)/touchdown-host: $(BUILD)/obj/host_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS) | firmware-library
-	$(CXX) -o $@ $^ $(FIRMWARE_LIBRARY) -lm $(LDLIBS)
+$(FIRMWARE_LIBRARY): firmware-library ;
 
-$(BUILD)/touchdown-host: $(wildcard firmware/core/*.[ch] firmware/host/host.[ch] firmware/board/board.h)
+$(BUILD)/touchdown-host: $(BUILD)/obj/host_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(FIRMWARE_LIBRARY) $(MODEL_LIBS)
+	$(CXX) -o $@ $^ -lm $(LDLIBS)
 
 $(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -o $@ $^ $(LDLIBS)

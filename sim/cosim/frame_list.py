@@ -2,7 +2,7 @@
 """Writes the frame list that the C++ camera shows; sim/verilated/frame_list.h has the layout."""
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +11,8 @@ import numpy as np
 from scripts.errors import UserError
 
 MAGIC = b"TDF1"
+HEADER_BYTES = 20
+ALTITUDE_BYTES = 4
 MAX_WIDTH = 1280
 MAX_HEIGHT = 720
 MIN_SIDE = 16
@@ -64,7 +66,7 @@ def write_frame_list(
     shape = None
     altitudes = iter(altitudes_mm)
     with path.open("wb") as file:
-        file.write(bytes(20))
+        file.write(bytes(HEADER_BYTES))
         for frame in frames:
             pixels = _checked(count, frame, shape)
             shape = pixels.shape
@@ -81,3 +83,12 @@ def write_frame_list(
         file.seek(0)
         file.write(MAGIC + struct.pack("<4I", shape[1], shape[0], count, repeat))
     return FrameList(path, shape[1], shape[0], count, repeat)
+
+
+def read_frame_list(frames: FrameList) -> Iterator[np.ndarray]:
+    """The frames of a list in the order in which they are shown; uint8 (height, width, 3), read-only."""
+    size = ALTITUDE_BYTES + frames.height * frames.width * 3
+    data = np.memmap(frames.path, np.uint8, "r", HEADER_BYTES, (frames.count, size))
+    for index in range(frames.shown):
+        pixels = data[index // frames.repeat, ALTITUDE_BYTES:]
+        yield pixels.reshape(frames.height, frames.width, 3)

@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shows frames to landing_core and compares what passes between its stages, and its records, with the golden models."""
+
+import argparse
+import itertools
+import re
+import subprocess
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from golden.ccl import ccl
+from golden.dilate3x3 import dilate3x3
+from golden.erode3x3 import erode3x3
+from golden.gaussian5x5 import gaussian5x5
+from golden.generated.landing_regs import (
+    CTRL_DARK_IS_ONE_SHIFT,
+    CTRL_LABEL_ZEROS_SHIFT,
+    OBJECT_DTYPE,
+    RECORD_DTYPE,
+)
+from golden.median5x5 import median5x5
+from golden.result_writer import record as golden_record
+from golden.rgb2gray import rgb2gray
+from golden.threshold_apply import threshold_apply
+from golden.threshold_stats import threshold_stats
+from scripts.errors import UserError, run_main
+from scripts.frames import open_frames
+from sim.cosim.build import ROOT, build_stages
+from sim.cosim.frame_list import FrameList, read_frame_list, write_frame_list
+from sim.cosim.result import Frame, read_result
+
+ALTITUDE_MM = 1500
+
+PIXEL_STAGES = ("rgb", "gray", "smooth", "checked", "binary", "eroded", "median", "dilated")
+"""Pixel streams of landing_core in the order of the data."""
+
+_PAYLOADS: dict[str, npt.DTypeLike] = {
+    **{stage: np.dtype("u1") for stage in PIXEL_STAGES},
+    "rgb": np.dtype(("u1", 3)),
+    "stats": np.dtype("<u4"),
+    "objects": OBJECT_DTYPE,
+}
+FIRST = 1
+LAST = 2
+
+
+class StageMismatchError(Exception):
+    """landing_core differs from its golden models; the message names stage, frame and place."""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Registers of landing_core, and how its memory answers."""
+
+    factor: int = 128
+    min_area: int = 30
+    dark_is_one: bool = True
+    label_zeros: bool = False
+    random_memory: bool = False
+    seed: int = 1
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was compared, and how fast the model ran."""
+
+    frames: int
+    pixels: int
+    objects: int
+    clocks: int
+    seconds: float
+
+    def __str__(self) -> str:
+        rate = self.clocks / self.seconds / 1e6
+        return (
+            f"{self.frames} frames, {self.pixels} pixels at {len(PIXEL_STAGES)} places, {self.objects} objects equal "
+            f"the golden models; {self.clocks} clocks in {self.seconds:.1f} s ({rate:.2f} million a second)"
+        )
+
+
+@dataclass(frozen=True)
+class Golden:
+    """What each stage gives for one frame."""
+
+    pixels: dict[str, np.ndarray]
+    stats: npt.NDArray[np.uint32]
+    thresholds: npt.NDArray[np.uint16]
+    objects: np.ndarray
+
+
+def golden_frame(rgb: np.ndarray, thresholds: npt.NDArray[np.uint16] | None, setup: Setup) -> Golden:
+    """The golden models one after the other; `thresholds` are those of the frame before."""
+    gray = rgb2gray(rgb)
+    smooth = gaussian5x5(gray)
+    stats = threshold_stats(smooth, setup.factor)
+    binary = threshold_apply(smooth, thresholds, setup.dark_is_one)
+    eroded = erode3x3(binary)
+    median = median5x5(eroded)
+    dilated = dilate3x3(median)
+    # {R, G, B} with the least byte first, as the stream was written.
+    stages = (rgb[..., ::-1], gray, smooth, smooth, binary, eroded, median, dilated)
+    objects = ccl(dilated, setup.min_area, setup.label_zeros)
+    return Golden(dict(zip(PIXEL_STAGES, stages, strict=True)), stats.beats(), stats.threshold, objects)
+
+
+def _run(frames: FrameList, setup: Setup, out_dir: Path) -> tuple[int, float]:
+    ctrl = setup.dark_is_one << CTRL_DARK_IS_ONE_SHIFT | setup.label_zeros << CTRL_LABEL_ZEROS_SHIFT
+    arguments = {
+        "frames": frames.path,
+        "out": out_dir,
+        "frame-clocks": 0,
+        "factor": setup.factor,
+        "min-area": setup.min_area,
+        "ctrl": ctrl,
+        "random-memory": int(setup.random_memory),
+        "seed": setup.seed,
+        "taps": 1,
+    }
+    command = [str(build_stages()), *(f"{key}={value}" for key, value in arguments.items())]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        raise StageMismatchError(run.stderr.strip().removeprefix("touchdown: "))
+    clocks, seconds = re.fullmatch(r"clocks (\d+) seconds (\S+)\n", run.stdout).groups()
+    return int(clocks), float(seconds)
+
+
+def _beats(out_dir: Path, stage: str) -> np.ndarray:
+    return np.fromfile(out_dir / f"{stage}.bin", np.dtype([("payload", _PAYLOADS[stage]), ("markers", "u1")]))
+
+
+class _Stream:
+    """One stage's beats, taken frame by frame."""
+
+    def __init__(self, out_dir: Path, stage: str) -> None:
+        self.stage = stage
+        beats = _beats(out_dir, stage)
+        self._payload = beats["payload"]
+        self._markers = beats["markers"]
+        self._at = 0
+
+    def fail(self, frame: int, what: str) -> StageMismatchError:
+        return StageMismatchError(f"stage {self.stage}, frame {frame}: {what}")
+
+    def take(self, frame: int, markers: npt.NDArray[np.uint8]) -> np.ndarray:
+        """The payloads of the next `len(markers)` beats, whose markers must be those."""
+        end = self._at + len(markers)
+        if end > len(self._payload):
+            raise self.fail(frame, f"{len(self._payload) - self._at} beats instead of {len(markers)}")
+        wrong = np.flatnonzero(self._markers[self._at : end] != markers)
+        if wrong.size:
+            beat = int(wrong[0])
+            got = self._markers[self._at + beat]
+            raise self.fail(frame, f"beat {beat}: expected {{tlast, tuser}} {markers[beat]:02b}, got {got:02b}")
+        payload = self._payload[self._at : end]
+        self._at = end
+        return payload
+
+    def take_frame_of_objects(self) -> npt.NDArray[np.uint8]:
+        """How many beats there are up to the next trailer, as the markers that they should have."""
+        trailers = np.flatnonzero(self._markers[self._at :] & LAST)
+        count = int(trailers[0]) + 1 if trailers.size else 1
+        markers = np.zeros(count, np.uint8)
+        markers[0] |= FIRST
+        markers[-1] |= LAST
+        return markers
+
+    def must_be_empty(self, frames: int) -> None:
+        if self._at != len(self._payload):
+            raise self.fail(frames, f"{len(self._payload) - self._at} beats after the last frame")
+
+
+def _grid_markers(height: int, width: int) -> npt.NDArray[np.uint8]:
+    """Markers of a raster: tuser on its first beat, tlast on the last of each line."""
+    markers = np.zeros((height, width), np.uint8)
+    markers[0, 0] |= FIRST
+    markers[:, -1] |= LAST
+    return markers.reshape(-1)
+
+
+def _compare_grid(stream: _Stream, frame: int, expected: np.ndarray) -> None:
+    height, width = expected.shape[:2]
+    got = stream.take(frame, _grid_markers(height, width)).reshape(expected.shape)
+    wrong = np.argwhere(got != expected)
+    if wrong.size:
+        y, x = wrong[0][:2]
+        values = f"expected {expected[y, x]}, got {got[y, x]}"
+        raise stream.fail(frame, f"first of {len(wrong)} differences at x={x} y={y}: {values}")
+
+
+def _compare_objects(stream: _Stream, frame: int, expected: np.ndarray) -> np.ndarray:
+    """Compare as a set, because the order of completion is the core's own; return the core's order."""
+    got = stream.take(frame, stream.take_frame_of_objects())
+    if got[-1].tobytes() != bytes(OBJECT_DTYPE.itemsize):
+        raise stream.fail(frame, f"the trailer is {got[-1]}")
+    objects = got[:-1]
+    want = sorted(item.tobytes() for item in expected)
+    have = sorted(item.tobytes() for item in objects)
+    if want != have:
+        missing = next((item for item in expected if item.tobytes() not in have), None)
+        extra = next((item for item in objects if item.tobytes() not in want), None)
+        raise stream.fail(frame, f"{len(objects)} objects instead of {len(expected)}; missing {missing}, extra {extra}")
+    return objects
+
+
+def _near(got: np.void, shown: Frame) -> dict[str, int]:
+    """The fields of the header that tell times and distances: as they are, once they were found plausible.
+
+    The pixel clock is not the clock in which times are counted, and lines that are flushed take their time.
+    """
+    first_us = shown.first_pixel_ns // 1000
+    scan_us = (shown.last_pixel_ns - shown.first_pixel_ns) // 1000
+    limits = {
+        "start_time_us": (first_us - 1, first_us + 1),
+        "scan_time_us": (scan_us, scan_us + scan_us // 10 + 100),
+        "altitude_mm": (ALTITUDE_MM - 1, ALTITUDE_MM + 1),
+        "altitude_age_us": (0, 2 * ALTITUDE_MM + 2000),
+    }
+    for name, (least, greatest) in limits.items():
+        if not least <= int(got["header"][name]) <= greatest:
+            value = got["header"][name]
+            raise StageMismatchError(f"record, frame {shown.index}: {name} is {value}, expected {least} to {greatest}")
+    return {name: int(got["header"][name]) for name in limits}
+
+
+def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, setup: Setup) -> None:
+    if shown.record is None:
+        raise StageMismatchError(f"record, frame {shown.index}: none was written")
+    values = {
+        **_near(shown.record, shown),
+        "frame_number": shown.index + 1,
+        "frame_size_width": frames.width,
+        "frame_size_height": frames.height,
+        "threshold_factor": setup.factor,
+        "min_area": setup.min_area,
+        "thresholds_missing": int(shown.index == 0),
+        "altitude_valid": 1,
+    }
+    data = golden_record(values, objects)
+    expected = np.frombuffer(data.ljust(RECORD_DTYPE.itemsize, b"\0"), RECORD_DTYPE)[0]
+    if shown.record.tobytes() == expected.tobytes():
+        return
+    for name in expected["header"].dtype.names:
+        got, want = shown.record["header"][name], expected["header"][name]
+        if got != want:
+            raise StageMismatchError(f"record, frame {shown.index}: {name} is {got}, expected {want}")
+    wrong = int(np.flatnonzero(shown.record["objects"] != expected["objects"])[0])
+    got, want = shown.record["objects"][wrong], expected["objects"][wrong]
+    raise StageMismatchError(f"record, frame {shown.index}, object {wrong}: expected {want}, got {got}")
+
+
+def compare(frames: Iterable[np.ndarray], setup: Setup, out_dir: Path) -> Report:
+    """Show frames back to back and compare every stage.
+
+    Args:
+        frames: uint8 RGB of shape (height, width, 3), one size.
+        setup: registers and memory.
+        out_dir: folder for the streams as files; made if needed.
+
+    Raises:
+        StageMismatchError: a stage or a record differs; the message names the first place in the order of the data.
+        UserError: the frames cannot be used or the model cannot be built.
+    """
+    out_dir.mkdir(parents=True, exist_ok=True)
+    shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM))
+    clocks, seconds = _run(shown, setup, out_dir)
+    result = read_result(out_dir, seconds)
+    streams = {stage: _Stream(out_dir, stage) for stage in _PAYLOADS}
+    thresholds = None
+    objects_seen = 0
+    for index, rgb in enumerate(read_frame_list(shown)):
+        golden = golden_frame(rgb, thresholds, setup)
+        for stage in PIXEL_STAGES:
+            if stage == "binary":
+                _compare_grid(streams["stats"], index, golden.stats)
+            _compare_grid(streams[stage], index, golden.pixels[stage])
+        objects = _compare_objects(streams["objects"], index, golden.objects)
+        _compare_record(result.frames[index], objects, shown, setup)
+        objects_seen += len(objects)
+        thresholds = golden.thresholds
+    for stream in streams.values():
+        stream.must_be_empty(shown.shown)
+    return Report(shown.shown, shown.shown * shown.width * shown.height, objects_seen, clocks, seconds)
+
+
+def main() -> int:
+    """Entry point: compare the frames of a folder, a video or the bundled clip."""
+    parser = argparse.ArgumentParser(prog="python -m sim.compare_stages", description=__doc__)
+    parser.add_argument("--frames", help="folder of pictures, picture or video; default: the rendered clip")
+    parser.add_argument("--limit", type=int, help="take at most this many frames")
+    parser.add_argument("--factor", type=int, default=Setup.factor, help="THRESHOLD, 0 to 256")
+    parser.add_argument("--min-area", type=int, default=Setup.min_area, help="MIN_AREA, pixels")
+    parser.add_argument("--paper", action="store_true", help="the paper's polarity: DARK_IS_ONE = 0, LABEL_ZEROS = 1")
+    parser.add_argument("--random-memory", action="store_true", help="memory that answers late and unevenly")
+    parser.add_argument("--seed", type=int, default=Setup.seed, help="of the random memory")
+    options = parser.parse_args()
+    setup = Setup(
+        options.factor, options.min_area, not options.paper, options.paper, options.random_memory, options.seed
+    )
+    frames = open_frames(options.frames, options.limit)
+    try:
+        print(compare(frames.open(), setup, ROOT / "build" / "stages"))
+    except StageMismatchError as error:
+        raise UserError(f"landing_core differs from its golden models: {error}.") from error
+    return 0
+
+
+if __name__ == "__main__":
+    run_main(main)
