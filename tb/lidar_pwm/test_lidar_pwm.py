@@ -27,6 +27,7 @@ LIMITS = Limits(
 )
 LATENCY_CLOCKS = FILTER_CYCLES + 3
 STATUS = ("timeout", "too_long", "too_short")
+LIMIT_US = 60_000  # of simulated time; no test comes near
 NEVER = 0xFFFFFFFF
 
 
@@ -157,7 +158,7 @@ def long_gap() -> float:
     return LIMITS.start_timeout_us + LIMITS.release_us / 2
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def measures_whole_microseconds_exactly(dut: HierarchyObject) -> None:
     """Pulses of a whole number of microseconds, from the shortest to the longest."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -173,7 +174,7 @@ async def measures_whole_microseconds_exactly(dut: HierarchyObject) -> None:
         bench.expect("ok", 1, f"after {width} us")
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def rejects_pulses_out_of_range(dut: HierarchyObject) -> None:
     """One microsecond beyond either limit is no reading and leaves the last one in place."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -191,7 +192,7 @@ async def rejects_pulses_out_of_range(dut: HierarchyObject) -> None:
     bench.expect("too_long", 1, "one us too long")
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def asynchronous_edges(dut: HierarchyObject) -> None:
     """Edges at any time within a clock: the error stays below a millimetre plus the sampling of a clock."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -205,7 +206,7 @@ async def asynchronous_edges(dut: HierarchyObject) -> None:
         bench.expect_reading(width, count, tolerance=1 + 1 / CLOCKS_PER_US)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def latency(dut: HierarchyObject) -> None:
     """An edge acts as many clocks later as documented."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -221,7 +222,7 @@ async def latency(dut: HierarchyObject) -> None:
     assert clocks == LATENCY_CLOCKS, f"latency: expected {LATENCY_CLOCKS} clocks, got {clocks}; {where()}"
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def glitches(dut: HierarchyObject) -> None:
     """Levels shorter than the filter change nothing: within a pulse, between pulses, in bursts."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -247,7 +248,7 @@ async def glitches(dut: HierarchyObject) -> None:
         bench.expect("ok", 1, "glitches")
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 @cocotb.parametrize(how=["enable", "reset"])
 async def pulse_under_way(dut: HierarchyObject, how: str) -> None:
     """A pulse whose start was not seen is not used; the next one is."""
@@ -270,7 +271,7 @@ async def pulse_under_way(dut: HierarchyObject, how: str) -> None:
     bench.expect("ok", 1, "the pulse after")
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def disabled_in_mid_pulse(dut: HierarchyObject) -> None:
     """Disabling drops valid and the pulse under way, releases the pin, and keeps distance and age."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -294,7 +295,7 @@ async def disabled_in_mid_pulse(dut: HierarchyObject) -> None:
     bench.expect("ok", 0, "enabled again")
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 @cocotb.parametrize(level=[0, 1])
 async def stuck_pin(dut: HierarchyObject, level: int) -> None:
     """A stuck pin is reported within 60 ms (scaled), valid falls, the pin is triggered again, and readings return."""
@@ -338,7 +339,7 @@ async def _released_us(bench: Bench) -> float:
     return bench.now_us() - begin
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def reading_grows_old(dut: HierarchyObject) -> None:
     """The age counts microseconds; valid falls as the age passes the limit (the watcher checks the very clock)."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -356,7 +357,7 @@ async def reading_grows_old(dut: HierarchyObject) -> None:
     bench.expect_reading(100, 1)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def random_sensor(dut: HierarchyObject) -> None:
     """Readings, short and long pulses, missing pulses, in random order, against the golden events."""
     bench = Bench(dut, Random(getrandbits(32)))

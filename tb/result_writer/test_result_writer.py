@@ -22,6 +22,7 @@ MAX_OBJECTS = parameter("MAX_OBJECTS", 256)
 MAX_OUTSTANDING = parameter("MAX_OUTSTANDING", 8)
 RING_BASE = 0x1F30_0000
 FRAME_NUMBER_OFFSET = 56
+LIMIT_US = 2000  # of simulated time; no test comes near
 HEADER_LEN = 6  # awlen of the 56 bytes before it
 
 # Port, bits, member of the header; grouped by when the writer samples them.
@@ -257,7 +258,7 @@ def _member(offset: int) -> str:
     return f"{name}.{fields[-1]}"
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 @cocotb.parametrize(weather=list(WEATHER))
 async def frames_in_order(dut: HierarchyObject, weather: str) -> None:
     """Back-to-back frames of all kinds, more than the ring holds."""
@@ -271,7 +272,7 @@ async def frames_in_order(dut: HierarchyObject, weather: str) -> None:
     bench.check(frames)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def fullest_frame(dut: HierarchyObject) -> None:
     """Exactly as many objects as fit, then one more, then none."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -285,7 +286,7 @@ async def fullest_frame(dut: HierarchyObject) -> None:
     bench.check(frames)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 @cocotb.parametrize(weather=list(WEATHER))
 async def cut_off_frames(dut: HierarchyObject, weather: str) -> None:
     """A first beat before the trailer abandons the frame; the next one is whole and takes the same buffer."""
@@ -301,7 +302,7 @@ async def cut_off_frames(dut: HierarchyObject, weather: str) -> None:
     bench.check(frames)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 @cocotb.parametrize(place=list(PLACES))
 async def write_errors(dut: HierarchyObject, place: str) -> None:
     """A write error anywhere in a frame: no record, one pulse, one count; the next frame is whole."""
@@ -320,7 +321,7 @@ async def write_errors(dut: HierarchyObject, place: str) -> None:
     bench.check(frames)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def error_in_cut_off_frame(dut: HierarchyObject) -> None:
     """A frame that fails and is cut off counts once, pulses once, and does not spoil the next one."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -338,7 +339,7 @@ async def error_in_cut_off_frame(dut: HierarchyObject) -> None:
     bench.check(frames)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def beats_without_a_frame(dut: HierarchyObject) -> None:
     """Beats before the first first beat, and between trailer and first beat, are dropped."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -352,7 +353,7 @@ async def beats_without_a_frame(dut: HierarchyObject) -> None:
     bench.check(frames)
 
 
-@cocotb.test()
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def reset_in_mid_frame(dut: HierarchyObject) -> None:
     """After a system reset the ring starts at buffer 0 and the next frame is whole."""
     bench = Bench(dut, Random(getrandbits(32)))
@@ -372,7 +373,7 @@ async def reset_in_mid_frame(dut: HierarchyObject) -> None:
     bench.check(frames)
 
 
-@cocotb.test(skip=MAX_OUTSTANDING < 8)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=MAX_OUTSTANDING < 8)
 async def documented_speed(dut: HierarchyObject) -> None:
     """One object in 9 clocks with 60 clocks of latency; trailer to frame_done as documented."""
     bench = Bench(dut, Random(1))
