@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The firmware's core in this process, through the C interface of `firmware/host/host.h`."""
+
+import ctypes
+import subprocess
+from pathlib import Path
+
+from pymavlink.dialects.v20 import common as mavlink
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "firmware"
+AUTOPILOT, GROUND = 0, 1
+BAUD = {AUTOPILOT: 921_600, GROUND: 57_600}
+_WRITE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.POINTER(ctypes.c_uint8), ctypes.c_size_t)
+
+
+def make(*targets: str) -> str:
+    """Run `make -C firmware` and return what it printed.
+
+    Raises:
+        AssertionError: it failed; the message holds all that it printed.
+    """
+    run = subprocess.run(
+        ["make", "-C", str(ROOT / "firmware"), *targets],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, f"make -C firmware {' '.join(targets)} failed:\n{run.stdout}"
+    return run.stdout
+
+
+def decode(data: bytes) -> list[mavlink.MAVLink_message]:
+    """All messages in the bytes of one link.
+
+    Raises:
+        AssertionError: some byte belongs to no valid MAVLink 2 message.
+    """
+    parser = mavlink.MAVLink(None)
+    parser.robust_parsing = True
+    messages = parser.parse_buffer(data) or []
+    bad = [message for message in messages if message.get_type() == "BAD_DATA"]
+    assert not bad, f"{len(bad)} stretches of bytes are not MAVLink: {bad[0]}"
+    assert sum(len(message.get_msgbuf()) for message in messages) == len(data), "the last message is cut off"
+    return messages
+
+
+class Firmware:
+    """One run of the core. A new instance starts anew; only the newest may be used.
+
+    Attributes:
+        sent: bytes sent so far, by link.
+    """
+
+    def __init__(self, now_us: int = 0) -> None:
+        self._library = ctypes.CDLL(str(BUILD / "libtouchdown.so"))
+        self._write = _WRITE(self._collect)  # kept: C holds no reference
+        self.sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
+        self._library.touchdown_init(self._write, None, ctypes.c_uint64(now_us))
+
+    def _collect(self, _context: int, link: int, data: "ctypes._Pointer[ctypes.c_uint8]", size: int) -> None:
+        self.sent[link] += bytes(data[:size])
+
+    def on_record(self, record: bytes, now_us: int = 0) -> int:
+        """Hand over one result record; 0, or a negative number of `firmware/core/record.h`."""
+        return self._library.touchdown_on_record(record, ctypes.c_size_t(len(record)), ctypes.c_uint64(now_us))
+
+    def on_bytes(self, link: int, data: bytes, now_us: int = 0) -> None:
+        """Hand over bytes that arrived on a link."""
+        self._library.touchdown_on_bytes(link, data, ctypes.c_size_t(len(data)), ctypes.c_uint64(now_us))
+
+    def tick(self, now_us: int, lidar_mm: int | None = 1000, age_us: int = 0) -> None:
+        """Let time pass. `lidar_mm` None: the LiDAR has no valid reading."""
+        self._library.touchdown_tick(
+            ctypes.c_uint64(now_us), lidar_mm is not None, ctypes.c_uint32(lidar_mm or 0), ctypes.c_uint32(age_us)
+        )
+
+    def take(self, link: int) -> list[mavlink.MAVLink_message]:
+        """Messages sent on a link since the last call."""
+        data = bytes(self.sent[link])
+        self.sent[link].clear()
+        return decode(data)
