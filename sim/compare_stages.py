@@ -12,21 +12,14 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from golden.ccl import ccl
-from golden.dilate3x3 import dilate3x3
-from golden.erode3x3 import erode3x3
-from golden.gaussian5x5 import gaussian5x5
+from golden.chain import PAPER, Settings, Stages, run_frames
 from golden.generated.landing_regs import (
     CTRL_DARK_IS_ONE_SHIFT,
     CTRL_LABEL_ZEROS_SHIFT,
     OBJECT_DTYPE,
     RECORD_DTYPE,
 )
-from golden.median5x5 import median5x5
 from golden.result_writer import record as golden_record
-from golden.rgb2gray import rgb2gray
-from golden.threshold_apply import threshold_apply
-from golden.threshold_stats import threshold_stats
 from scripts.errors import UserError, run_main
 from scripts.frames import open_frames
 from sim.cosim.build import ROOT, build_stages
@@ -53,14 +46,10 @@ class StageMismatchError(Exception):
 
 
 @dataclass(frozen=True)
-class Setup:
-    """Registers of landing_core, and how its memory answers."""
+class Memory:
+    """How the memory behind landing_core answers: at once, or late and unevenly."""
 
-    factor: int = 128
-    min_area: int = 30
-    dark_is_one: bool = True
-    label_zeros: bool = False
-    random_memory: bool = False
+    random: bool = False
     seed: int = 1
 
 
@@ -82,42 +71,27 @@ class Report:
         )
 
 
-@dataclass(frozen=True)
-class Golden:
-    """What each stage gives for one frame."""
-
-    pixels: dict[str, np.ndarray]
-    stats: npt.NDArray[np.uint32]
-    thresholds: npt.NDArray[np.uint16]
-    objects: np.ndarray
-
-
-def golden_frame(rgb: np.ndarray, thresholds: npt.NDArray[np.uint16] | None, setup: Setup) -> Golden:
-    """The golden models one after the other; `thresholds` are those of the frame before."""
-    gray = rgb2gray(rgb)
-    smooth = gaussian5x5(gray)
-    stats = threshold_stats(smooth, setup.factor)
-    binary = threshold_apply(smooth, thresholds, setup.dark_is_one)
-    eroded = erode3x3(binary)
-    median = median5x5(eroded)
-    dilated = dilate3x3(median)
-    # {R, G, B} with the least byte first, as the stream was written.
-    stages = (rgb[..., ::-1], gray, smooth, smooth, binary, eroded, median, dilated)
-    objects = ccl(dilated, setup.min_area, setup.label_zeros)
-    return Golden(dict(zip(PIXEL_STAGES, stages, strict=True)), stats.beats(), stats.threshold, objects)
+def stage_pixels(golden: Stages) -> dict[str, np.ndarray]:
+    """What each pixel stream carries for one frame."""
+    # RGB is {R, G, B} with the least byte first, as the stream is written; threshold_stats passes its pixels on.
+    stages = (
+        *(golden.rgb[..., ::-1], golden.gray, golden.smooth, golden.smooth),
+        *(golden.binary, golden.eroded, golden.median, golden.dilated),
+    )
+    return dict(zip(PIXEL_STAGES, stages, strict=True))
 
 
-def _run(frames: FrameList, setup: Setup, out_dir: Path) -> tuple[int, float]:
-    ctrl = setup.dark_is_one << CTRL_DARK_IS_ONE_SHIFT | setup.label_zeros << CTRL_LABEL_ZEROS_SHIFT
+def _run(frames: FrameList, settings: Settings, memory: Memory, out_dir: Path) -> tuple[int, float]:
+    ctrl = settings.dark_is_one << CTRL_DARK_IS_ONE_SHIFT | settings.label_zeros << CTRL_LABEL_ZEROS_SHIFT
     arguments = {
         "frames": frames.path,
         "out": out_dir,
         "frame-clocks": 0,
-        "factor": setup.factor,
-        "min-area": setup.min_area,
+        "factor": settings.factor,
+        "min-area": settings.min_area,
         "ctrl": ctrl,
-        "random-memory": int(setup.random_memory),
-        "seed": setup.seed,
+        "random-memory": int(memory.random),
+        "seed": memory.seed,
         "taps": 1,
     }
     command = [str(build_stages()), *(f"{key}={value}" for key, value in arguments.items())]
@@ -191,19 +165,19 @@ def _compare_grid(stream: _Stream, frame: int, expected: np.ndarray) -> None:
         raise stream.fail(frame, f"first of {len(wrong)} differences at x={x} y={y}: {values}")
 
 
-def _compare_objects(stream: _Stream, frame: int, expected: np.ndarray) -> np.ndarray:
-    """Compare as a set, because the order of completion is the core's own; return the core's order."""
+def _compare_objects(stream: _Stream, frame: int, expected: np.ndarray) -> None:
     got = stream.take(frame, stream.take_frame_of_objects())
-    if got[-1].tobytes() != bytes(OBJECT_DTYPE.itemsize):
-        raise stream.fail(frame, f"the trailer is {got[-1]}")
+    trailer = got[-1]
+    if trailer.tobytes() != bytes(OBJECT_DTYPE.itemsize):
+        raise stream.fail(frame, f"the trailer is {trailer}")
     objects = got[:-1]
-    want = sorted(item.tobytes() for item in expected)
-    have = sorted(item.tobytes() for item in objects)
-    if want != have:
-        missing = next((item for item in expected if item.tobytes() not in have), None)
-        extra = next((item for item in objects if item.tobytes() not in want), None)
-        raise stream.fail(frame, f"{len(objects)} objects instead of {len(expected)}; missing {missing}, extra {extra}")
-    return objects
+    common = min(len(objects), len(expected))
+    wrong = np.flatnonzero(objects[:common] != expected[:common])
+    if wrong.size:
+        first = int(wrong[0])
+        raise stream.fail(frame, f"object {first}: expected {expected[first]}, got {objects[first]}")
+    if len(objects) != len(expected):
+        raise stream.fail(frame, f"{len(objects)} objects, expected {len(expected)}")
 
 
 def _near(got: np.void, shown: Frame) -> dict[str, int]:
@@ -226,7 +200,7 @@ def _near(got: np.void, shown: Frame) -> dict[str, int]:
     return {name: int(got["header"][name]) for name in limits}
 
 
-def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, setup: Setup) -> None:
+def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, settings: Settings) -> None:
     if shown.record is None:
         raise StageMismatchError(f"record, frame {shown.index}: none was written")
     values = {
@@ -234,8 +208,8 @@ def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, setup:
         "frame_number": shown.index + 1,
         "frame_size_width": frames.width,
         "frame_size_height": frames.height,
-        "threshold_factor": setup.factor,
-        "min_area": setup.min_area,
+        "threshold_factor": settings.factor,
+        "min_area": settings.min_area,
         "thresholds_missing": int(shown.index == 0),
         "altitude_valid": 1,
     }
@@ -252,38 +226,39 @@ def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, setup:
     raise StageMismatchError(f"record, frame {shown.index}, object {wrong}: expected {want}, got {got}")
 
 
-def compare(frames: Iterable[np.ndarray], setup: Setup, out_dir: Path) -> Report:
+def compare(
+    frames: Iterable[np.ndarray], out_dir: Path, settings: Settings | None = None, memory: Memory | None = None
+) -> Report:
     """Show frames back to back and compare every stage.
 
     Args:
         frames: uint8 RGB of shape (height, width, 3), one size.
-        setup: registers and memory.
         out_dir: folder for the streams as files; made if needed.
+        settings: registers; default those of the firmware.
+        memory: default one that answers at once.
 
     Raises:
         StageMismatchError: a stage or a record differs; the message names the first place in the order of the data.
         UserError: the frames cannot be used or the model cannot be built.
     """
+    settings = settings or Settings()
     out_dir.mkdir(parents=True, exist_ok=True)
     shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM))
-    clocks, seconds = _run(shown, setup, out_dir)
+    clocks, seconds = _run(shown, settings, memory or Memory(), out_dir)
     result = read_result(out_dir, seconds)
     streams = {stage: _Stream(out_dir, stage) for stage in _PAYLOADS}
-    thresholds = None
-    objects_seen = 0
-    for index, rgb in enumerate(read_frame_list(shown)):
-        golden = golden_frame(rgb, thresholds, setup)
-        for stage in PIXEL_STAGES:
+    objects = 0
+    for index, golden in enumerate(run_frames(read_frame_list(shown), settings)):
+        for stage, expected in stage_pixels(golden).items():
             if stage == "binary":
-                _compare_grid(streams["stats"], index, golden.stats)
-            _compare_grid(streams[stage], index, golden.pixels[stage])
-        objects = _compare_objects(streams["objects"], index, golden.objects)
-        _compare_record(result.frames[index], objects, shown, setup)
-        objects_seen += len(objects)
-        thresholds = golden.thresholds
+                _compare_grid(streams["stats"], index, golden.stats.beats())
+            _compare_grid(streams[stage], index, expected)
+        _compare_objects(streams["objects"], index, golden.objects)
+        _compare_record(result.frames[index], golden.objects, shown, settings)
+        objects += len(golden.objects)
     for stream in streams.values():
         stream.must_be_empty(shown.shown)
-    return Report(shown.shown, shown.shown * shown.width * shown.height, objects_seen, clocks, seconds)
+    return Report(shown.shown, shown.shown * shown.width * shown.height, objects, clocks, seconds)
 
 
 def main() -> int:
@@ -291,18 +266,15 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m sim.compare_stages", description=__doc__)
     parser.add_argument("--frames", help="folder of pictures, picture or video; default: the rendered clip")
     parser.add_argument("--limit", type=int, help="take at most this many frames")
-    parser.add_argument("--factor", type=int, default=Setup.factor, help="THRESHOLD, 0 to 256")
-    parser.add_argument("--min-area", type=int, default=Setup.min_area, help="MIN_AREA, pixels")
-    parser.add_argument("--paper", action="store_true", help="the paper's polarity: DARK_IS_ONE = 0, LABEL_ZEROS = 1")
-    parser.add_argument("--random-memory", action="store_true", help="memory that answers late and unevenly")
-    parser.add_argument("--seed", type=int, default=Setup.seed, help="of the random memory")
+    parser.add_argument("--paper", action="store_true", help="the paper's registers instead of the firmware's")
+    parser.add_argument("--slow-memory", action="store_true", help="memory that answers late and unevenly")
+    parser.add_argument("--seed", type=int, default=Memory.seed, help="of the slow memory")
     options = parser.parse_args()
-    setup = Setup(
-        options.factor, options.min_area, not options.paper, options.paper, options.random_memory, options.seed
-    )
+    settings = PAPER if options.paper else Settings()
+    memory = Memory(options.slow_memory, options.seed)
     frames = open_frames(options.frames, options.limit)
     try:
-        print(compare(frames.open(), setup, ROOT / "build" / "stages"))
+        print(compare(frames.open(), ROOT / "build" / "stages", settings, memory))
     except StageMismatchError as error:
         raise UserError(f"landing_core differs from its golden models: {error}.") from error
     return 0
