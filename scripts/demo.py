@@ -74,9 +74,9 @@ def demo(
 
 def _annotated(frames: FrameSet, rows: list[Row], out_dir: Path) -> Iterator[np.ndarray]:
     """Annotated frames, each also written as a PNG."""
-    for image, row in zip(frames.open(), rows, strict=True):
+    for image, row, label in zip(frames.open(), rows, frames.labels, strict=True):
         picture = annotate(image, row)
-        path = out_dir / f"{Path(row.name).stem}.png"
+        path = out_dir / f"{label}.png"
         if not cv2.imwrite(str(path), cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)):
             raise UserError(f"{path} cannot be written; check the folder and the space left on the disk.")
         yield picture

@@ -46,6 +46,15 @@ class FrameSet:
     altitude_csv: Path | None
     open: Callable[[], Iterator[np.ndarray]]
 
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """One a frame, for names of files: the name without its suffix, where that tells them apart."""
+        stems = [Path(name).stem for name in self.names]
+        return tuple(
+            stem if stems.count(stem) == 1 else name.replace(".", "_")
+            for stem, name in zip(stems, self.names, strict=True)
+        )
+
 
 def open_frames(source: str | None, limit: int | None = None) -> FrameSet:
     """Find the frames.

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All golden models in a row: what every stage makes of a frame, given the thresholds of the frame before."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from golden.ccl import ccl
+from golden.dilate3x3 import dilate3x3
+from golden.erode3x3 import erode3x3
+from golden.gaussian5x5 import gaussian5x5
+from golden.generated.landing_regs import OBJECT_DTYPE
+from golden.median5x5 import median5x5
+from golden.rgb2gray import rgb2gray
+from golden.threshold_apply import threshold_apply
+from golden.threshold_stats import WindowStats, threshold_stats
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Registers that decide what the chain does; the defaults are what the firmware starts with.
+
+    Attributes:
+        factor: THRESHOLD.factor, Q1.8.
+        dark_is_one: CTRL.dark_is_one.
+        label_zeros: CTRL.label_zeros.
+        min_area: MIN_AREA, pixels.
+    """
+
+    factor: int = 128
+    dark_is_one: bool = True
+    label_zeros: bool = False
+    min_area: int = 100
+
+
+PAPER = Settings(factor=64, dark_is_one=False, label_zeros=True, min_area=30)
+"""The paper's order of things, which the registers hold after reset."""
+
+
+@dataclass(frozen=True)
+class Stages:
+    """What leaves each stage for one frame; pictures are (height, width), binary ones hold 0 and 1.
+
+    Attributes:
+        rgb: uint8 (height, width, 3), what the camera sent.
+        gray: uint8, from `rgb2gray`.
+        smooth: uint8, from `gaussian5x5` and again from `threshold_stats`.
+        stats: Of this frame, from `threshold_stats`; they serve the next one.
+        thresholds: uint16 Q8.8, what `threshold_apply` used: those of the frame before; None = none yet.
+        binary: uint8, from `threshold_apply`.
+        eroded: uint8, from `erode3x3`.
+        median: uint8, from `median5x5`.
+        dilated: uint8, from `dilate3x3`.
+        objects: `OBJECT_DTYPE`, from `ccl`, in the order of `golden.ccl`.
+    """
+
+    rgb: np.ndarray = field(repr=False)
+    gray: np.ndarray = field(repr=False)
+    smooth: np.ndarray = field(repr=False)
+    stats: WindowStats = field(repr=False)
+    thresholds: np.ndarray | None = field(repr=False)
+    binary: np.ndarray = field(repr=False)
+    eroded: np.ndarray = field(repr=False)
+    median: np.ndarray = field(repr=False)
+    dilated: np.ndarray = field(repr=False)
+    objects: np.ndarray = field(repr=False)
+
+
+def run_chain(rgb: np.ndarray, thresholds: np.ndarray | None, settings: Settings | None = None) -> Stages:
+    """Run one frame.
+
+    Args:
+        rgb: uint8 (height, width, 3).
+        thresholds: `stats.threshold` of the frame before; None before the first complete frame.
+        settings: Registers; default those of the firmware.
+    """
+    settings = settings or Settings()
+    gray = rgb2gray(rgb)
+    smooth = gaussian5x5(gray)
+    binary = threshold_apply(smooth, thresholds, settings.dark_is_one)
+    eroded = erode3x3(binary)
+    median = median5x5(eroded)
+    dilated = dilate3x3(median)
+    return Stages(
+        rgb=rgb,
+        gray=gray,
+        smooth=smooth,
+        stats=threshold_stats(smooth, settings.factor),
+        thresholds=thresholds,
+        binary=binary,
+        eroded=eroded,
+        median=median,
+        dilated=dilated,
+        objects=np.asarray(ccl(dilated, settings.min_area, settings.label_zeros), OBJECT_DTYPE),
+    )
+
+
+def run_frames(frames: Iterable[np.ndarray], settings: Settings | None = None) -> Iterator[Stages]:
+    """Run frames one after another, each with the thresholds of the one before."""
+    thresholds = None
+    for rgb in frames:
+        stages = run_chain(rgb, thresholds, settings)
+        yield stages
+        thresholds = stages.stats.threshold
