@@ -47,7 +47,7 @@ class Stages:
         gray: uint8, from `rgb2gray`.
         smooth: uint8, from `gaussian5x5` and again from `threshold_stats`.
         stats: Of this frame, from `threshold_stats`; they serve the next one.
-        thresholds: uint16 Q8.8, what `threshold_apply` used: those of the frame before; None = none yet.
+        stats_before: Of the frame before, whose thresholds `threshold_apply` used; None = none yet.
         binary: uint8, from `threshold_apply`.
         eroded: uint8, from `erode3x3`.
         median: uint8, from `median5x5`.
@@ -59,7 +59,7 @@ class Stages:
     gray: np.ndarray = field(repr=False)
     smooth: np.ndarray = field(repr=False)
     stats: WindowStats = field(repr=False)
-    thresholds: np.ndarray | None = field(repr=False)
+    stats_before: WindowStats | None = field(repr=False)
     binary: np.ndarray = field(repr=False)
     eroded: np.ndarray = field(repr=False)
     median: np.ndarray = field(repr=False)
@@ -67,18 +67,18 @@ class Stages:
     objects: np.ndarray = field(repr=False)
 
 
-def run_chain(rgb: np.ndarray, thresholds: np.ndarray | None, settings: Settings | None = None) -> Stages:
+def run_chain(rgb: np.ndarray, stats_before: WindowStats | None, settings: Settings | None = None) -> Stages:
     """Run one frame.
 
     Args:
         rgb: uint8 (height, width, 3).
-        thresholds: `stats.threshold` of the frame before; None before the first complete frame.
+        stats_before: `stats` of the frame before; None before the first complete frame.
         settings: Registers; default those of the firmware.
     """
     settings = settings or Settings()
     gray = rgb2gray(rgb)
     smooth = gaussian5x5(gray)
-    binary = threshold_apply(smooth, thresholds, settings.dark_is_one)
+    binary = threshold_apply(smooth, stats_before.threshold if stats_before else None, settings.dark_is_one)
     eroded = erode3x3(binary)
     median = median5x5(eroded)
     dilated = dilate3x3(median)
@@ -87,7 +87,7 @@ def run_chain(rgb: np.ndarray, thresholds: np.ndarray | None, settings: Settings
         gray=gray,
         smooth=smooth,
         stats=threshold_stats(smooth, settings.factor),
-        thresholds=thresholds,
+        stats_before=stats_before,
         binary=binary,
         eroded=eroded,
         median=median,
@@ -98,8 +98,8 @@ def run_chain(rgb: np.ndarray, thresholds: np.ndarray | None, settings: Settings
 
 def run_frames(frames: Iterable[np.ndarray], settings: Settings | None = None) -> Iterator[Stages]:
     """Run frames one after another, each with the thresholds of the one before."""
-    thresholds = None
+    before = None
     for rgb in frames:
-        stages = run_chain(rgb, thresholds, settings)
+        stages = run_chain(rgb, before, settings)
         yield stages
-        thresholds = stages.stats.threshold
+        before = stages.stats

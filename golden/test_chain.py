@@ -79,7 +79,7 @@ def test_every_stage_equals_opencv(size: tuple[int, int], settings: Settings) ->
             assert np.array_equal(getattr(stages, name), image), name
         assert chain_objects(stages) == opencv_objects(expected["dilated"], settings)
         assert stages.objects.dtype == OBJECT_DTYPE
-        assert np.array_equal(stages.thresholds, before.stats.threshold)
+        assert stages.stats_before is before.stats
 
 
 def test_without_thresholds_all_is_background() -> None:

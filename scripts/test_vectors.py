@@ -60,16 +60,16 @@ def test_outputs_follow_from_inputs(clip: FrameSet, tmp_path: Path) -> None:
         gray, smooth = (np.load(folder / f"{name}.npy") for name in ("in_gray", "out_smooth"))
         assert np.array_equal(gaussian5x5(gray), smooth)
     for folder in write_vectors("threshold_apply", clip, tmp_path):
-        names = ("in_smooth", "in_thresholds", "out_binary")
-        smooth, thresholds, binary = (np.load(folder / f"{name}.npy") for name in names)
-        assert np.array_equal(threshold_apply(smooth, thresholds, dark_is_one=True), binary)
+        names = ("in_smooth", "in_stat_before", "out_binary")
+        smooth, stats, binary = (np.load(folder / f"{name}.npy") for name in names)
+        assert np.array_equal(threshold_apply(smooth, (stats & 0xFFFF).astype(np.uint16), dark_is_one=True), binary)
 
 
 def test_thresholds_come_from_the_frame_before_in_a_clip_only(clip: FrameSet) -> None:
     settings = Settings()
     own = [run_chain(image, None, settings).stats.threshold for image in clip.open()]
     assert not np.array_equal(own[0], own[1])
-    used = [stages.thresholds for stages in stages_of(clip, settings)]
+    used = [stages.stats_before.threshold for stages in stages_of(clip, settings)]
     assert np.array_equal(used, [own[0], own[0]])
     pictures = dataclasses.replace(clip, sequential=False)
     assert np.array_equal([stages.thresholds for stages in stages_of(pictures, settings)], own)

@@ -41,20 +41,18 @@ class Stream:
     what: str
 
 
-def _statistics(stages: Stages) -> np.ndarray:
-    return stages.stats.beats()
+def _beats_before(stages: Stages) -> np.ndarray | None:
+    return stages.stats_before.beats() if stages.stats_before else None
 
 
-def _thresholds(stages: Stages) -> np.ndarray | None:
-    return stages.thresholds
-
+_STAT = "stat stream, {max, min, threshold Q8.8}, windows in raster order"
 
 STREAMS = {
     "rgb": Stream(24, lambda stages: stages.rgb, "video, {R, G, B}"),
     "gray": Stream(8, lambda stages: stages.gray, "video, gray"),
     "smooth": Stream(8, lambda stages: stages.smooth, "video, gray"),
-    "stat": Stream(32, _statistics, "stat stream of this frame, {max, min, threshold Q8.8}, windows in raster order"),
-    "thresholds": Stream(16, _thresholds, "thresholds Q8.8 of the frame before, windows in raster order"),
+    "stat": Stream(32, lambda stages: stages.stats.beats(), _STAT),
+    "stat_before": Stream(32, _beats_before, f"{_STAT}, of the frame before"),
     "binary": Stream(1, lambda stages: stages.binary, "video, binary"),
     "eroded": Stream(1, lambda stages: stages.eroded, "video, binary"),
     "median": Stream(1, lambda stages: stages.median, "video, binary"),
@@ -77,7 +75,7 @@ CORES = {
     "rgb2gray": Ports(("rgb",), ("gray",)),
     "gaussian5x5": Ports(("gray",), ("smooth",)),
     "threshold_stats": Ports(("smooth",), ("smooth", "stat")),
-    "threshold_apply": Ports(("smooth", "thresholds"), ("binary",)),
+    "threshold_apply": Ports(("smooth", "stat_before"), ("binary",)),
     "erode3x3": Ports(("binary",), ("eroded",)),
     "median5x5": Ports(("eroded",), ("median",)),
     "dilate3x3": Ports(("median",), ("dilated",)),
@@ -96,9 +94,9 @@ def stages_of(frames: FrameSet, settings: Settings) -> Iterator[Stages]:
     for rgb in frames.open():
         own = run_chain(rgb, before, settings)
         if before is None:
-            own = run_chain(rgb, own.stats.threshold, settings)
+            own = run_chain(rgb, own.stats, settings)
         yield own
-        before = own.stats.threshold if frames.sequential else None
+        before = own.stats if frames.sequential else None
 
 
 def write_vectors(core: str, frames: FrameSet, out_dir: Path, settings: Settings | None = None) -> list[Path]:
