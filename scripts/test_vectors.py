@@ -72,7 +72,7 @@ def test_thresholds_come_from_the_frame_before_in_a_clip_only(clip: FrameSet) ->
     used = [stages.stats_before.threshold for stages in stages_of(clip, settings)]
     assert np.array_equal(used, [own[0], own[0]])
     pictures = dataclasses.replace(clip, sequential=False)
-    assert np.array_equal([stages.thresholds for stages in stages_of(pictures, settings)], own)
+    assert np.array_equal([stages.stats_before.threshold for stages in stages_of(pictures, settings)], own)
 
 
 def test_hex_of_an_object_is_the_number_on_the_stream() -> None:
