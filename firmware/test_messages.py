@@ -181,6 +181,16 @@ def test_unusable_distance_is_out_of_range(firmware: Firmware, lidar_mm: int | N
     assert message.signal_quality == 1
 
 
+def test_health(firmware: Firmware) -> None:
+    counts = {"frames_malformed": 3, "frames_overflow": 5, "objects_dropped": 0, "min_area": 31}
+    firmware.on_record(record_of(Pose(1.0), **counts))
+    firmware.on_record(b"nonsense")
+    firmware.tick(0)
+    arrays = {message.name: message for message in firmware.take(GROUND) if message.get_type() == "DEBUG_FLOAT_ARRAY"}
+    assert arrays["HEALTH"].array_id == 2
+    assert list(arrays["HEALTH"].data[:9]) == [1, 1, 1, 3, 5, 0, 100, 0, 0]
+
+
 def test_lost_camera_is_told_once(firmware: Firmware) -> None:
     for now_us in range(0, 5_000_000, 5000):
         firmware.tick(now_us)

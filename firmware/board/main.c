@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joins the platform-independent application to the board.
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -20,11 +21,11 @@ static enum uart_id uart_of(enum app_link link)
     return link == APP_LINK_AUTOPILOT ? UART_0 : UART_1;
 }
 
-static void write(void *context, enum app_link link, const uint8_t *bytes, size_t size)
+static bool write(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
     (void)context;
     // Late messages are worse than lost ones: what does not fit is dropped.
-    (void)uart_write(uart_of(link), bytes, size);
+    return uart_write(uart_of(link), bytes, size);
 }
 
 static void read(enum app_link link, uint64_t now_us)
@@ -70,6 +71,8 @@ int main(void)
             if (size > 0) {
                 (void)app_on_record(&app, &record, (size_t)size, now_us);
                 landing_hw_set_min_area(app_min_area_px(&app));
+            } else {
+                app_on_lost_record(&app);
             }
         }
         read(APP_LINK_AUTOPILOT, now_us);

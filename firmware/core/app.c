@@ -10,6 +10,7 @@
 #define DISTANCE_PERIOD_US 50000U
 #define CAMERA_LOST_US 2000000U
 #define PAD_ARRAY_ID 1U
+#define HEALTH_ARRAY_ID 2U
 
 // On grass, half of all frames have more than 256 shapes of 30 pixels, hardly
 // any has of 150; and the square, seen from 1.9 m, has about 170. Below 30 no
@@ -23,7 +24,9 @@
 
 static void send(struct app *app, enum app_link link, const uint8_t *bytes, size_t size)
 {
-    app->port.write(app->port.context, link, bytes, size);
+    if (!app->port.write(app->port.context, link, bytes, size)) {
+        app->health[link == APP_LINK_AUTOPILOT ? APP_HEALTH_DROPPED_AUTOPILOT : APP_HEALTH_DROPPED_GROUND]++;
+    }
 }
 
 static void say(struct app *app, enum mavlink_out_severity severity, const char *text)
@@ -97,8 +100,9 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
 
 static void adapt_min_area(struct app *app, const struct landing_result_header *header)
 {
-    // A change shows a few frames later; until then there is nothing to learn.
-    if (header->min_area != app->min_area_px) {
+    // A change shows a few frames later, and without thresholds there are no
+    // objects: until then there is nothing to learn.
+    if (header->min_area != app->min_area_px || (header->flags & LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK) != 0U) {
         return;
     }
     if (header->objects_dropped != 0U && app->min_area_px < MIN_AREA_GREATEST_PX) {
@@ -113,6 +117,11 @@ uint32_t app_min_area_px(const struct app *app)
     return app->min_area_px;
 }
 
+void app_on_lost_record(struct app *app)
+{
+    app->health[APP_HEALTH_RECORDS_REJECTED]++;
+}
+
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us)
 {
     struct pad_shapes pad;
@@ -120,10 +129,15 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     const int error = record_check(record, size_bytes);
 
     if (error != 0) {
+        app_on_lost_record(app);
         return error;
     }
     app->last_record_us = now_us;
     adapt_min_area(app, &record->header);
+    app->health[APP_HEALTH_RECORDS]++;
+    app->health[APP_HEALTH_FRAMES_MALFORMED] = record->header.frames_malformed;
+    app->health[APP_HEALTH_FRAMES_OVERFLOW] = record->header.frames_overflow;
+    app->health[APP_HEALTH_OBJECTS_DROPPED] = record->header.objects_dropped;
     const struct lidar_reading lidar = {
         .valid = (record->header.flags & LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK) != 0U,
         .distance_mm = record->header.altitude_mm,
@@ -136,6 +150,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pose : NULL);
 
     if (found) {
+        app->health[APP_HEALTH_PADS]++;
         send_landing_target(app, record, &pose, &altitude);
     }
     send_pad_array(app, record, found ? &pad : NULL, found ? &pose : NULL, &altitude);
@@ -151,6 +166,20 @@ void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, siz
             send(app, link, reply, mavlink_out_timesync_reply(&app->out[link], now_us, request_ns, reply));
         }
     }
+}
+
+static void send_health(struct app *app, uint64_t now_us)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+    float values[APP_HEALTH_FIELDS];
+
+    app->health[APP_HEALTH_MIN_AREA_PX] = app->min_area_px;
+    for (int i = 0; i < APP_HEALTH_FIELDS; i++) {
+        values[i] = (float)app->health[i];
+    }
+    send(app, APP_LINK_GROUND, bytes,
+         mavlink_out_float_array(&app->out[APP_LINK_GROUND], now_us, HEALTH_ARRAY_ID, "HEALTH", values,
+                                 APP_HEALTH_FIELDS, bytes));
 }
 
 // True once a period. A caller that comes late gets one turn, not a burst.
@@ -190,6 +219,8 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
         }
         if (app->fault != NULL) {
             say(app, MAVLINK_OUT_CRITICAL, app->fault);
+        } else {
+            send_health(app, now_us);
         }
     }
     if (lidar != NULL && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {

@@ -18,8 +18,9 @@
 enum app_link { APP_LINK_AUTOPILOT, APP_LINK_GROUND, APP_LINKS };
 
 struct app_port {
-    // Takes a whole message or drops it; never blocks, never sends a part.
-    void (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
+    // Takes a whole message, or drops it and returns false; never blocks, never
+    // sends a part.
+    bool (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
     void *context;
 };
 
@@ -47,6 +48,21 @@ enum app_pad_field {
 #define APP_FLAG_ALTITUDE_PAD 0x80U      // the pad's size counts in the altitude
 #define APP_FLAG_LIDAR_IMPLAUSIBLE 0x100U
 
+// What each element of the ground station's DEBUG_FLOAT_ARRAY "HEALTH" holds,
+// once a second. Counts are since start; of records, those of the newest.
+enum app_health_field {
+    APP_HEALTH_RECORDS,
+    APP_HEALTH_RECORDS_REJECTED, // torn or nonsense
+    APP_HEALTH_PADS,             // records in which the pad was found
+    APP_HEALTH_FRAMES_MALFORMED,
+    APP_HEALTH_FRAMES_OVERFLOW,
+    APP_HEALTH_OBJECTS_DROPPED, // of the newest record
+    APP_HEALTH_MIN_AREA_PX,
+    APP_HEALTH_DROPPED_AUTOPILOT, // messages that found no room on the wire
+    APP_HEALTH_DROPPED_GROUND,
+    APP_HEALTH_FIELDS
+};
+
 struct app {
     struct app_port port;
     struct mavlink_out out[APP_LINKS];
@@ -57,6 +73,7 @@ struct app {
     uint64_t last_record_us;
     bool camera_lost;
     uint32_t min_area_px;
+    uint32_t health[APP_HEALTH_FIELDS];
     struct classify_scratch scratch;
 };
 
@@ -67,6 +84,9 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
 // One record of `size_bytes`, as copied. Returns 0, or the RECORD_E_* for which
 // it was rejected.
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us);
+
+// A record that was lost on its way here.
+void app_on_lost_record(struct app *app);
 
 // What MIN_AREA should be from now on. Rises while records overflow and falls
 // while they are far from full, so that grass does not push the pad out.

@@ -9,9 +9,10 @@ static struct app app;
 static struct landing_record record;
 static touchdown_write write_bytes;
 
-static void forward(void *context, enum app_link link, const uint8_t *bytes, size_t size)
+static bool forward(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
     write_bytes(context, (int)link, bytes, size);
+    return true;
 }
 
 void touchdown_init(touchdown_write write, void *context, uint64_t now_us)

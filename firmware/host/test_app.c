@@ -10,12 +10,14 @@
 static struct app app;
 static struct landing_record record;
 static int messages[APP_LINKS];
+static bool wire_is_full;
 
-static void count(void *context, enum app_link link, const uint8_t *bytes, size_t size)
+static bool count(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
     (void)context;
     CHECK(size >= 12U && bytes[0] == 0xFDU);
     messages[link]++;
+    return !wire_is_full;
 }
 
 static void start(void)
@@ -64,7 +66,7 @@ static void test_late_tick(void)
     app_tick(&app, 0, &lidar);
     memset(messages, 0, sizeof messages);
     app_tick(&app, 10000000U, &lidar);
-    CHECK(messages[APP_LINK_AUTOPILOT] == 2); // HEARTBEAT, DISTANCE_SENSOR
+    CHECK(messages[APP_LINK_AUTOPILOT] == 2); // HEARTBEAT and DISTANCE_SENSOR
     app_tick(&app, 10000001U, &lidar);
     CHECK(messages[APP_LINK_AUTOPILOT] == 2);
 }
@@ -80,8 +82,34 @@ static void test_rejected(void)
     CHECK(messages[APP_LINK_AUTOPILOT] == 0 && messages[APP_LINK_GROUND] == 0);
 }
 
+static void test_full_wire(void)
+{
+    const struct lidar_reading lidar = {.valid = true, .distance_mm = 1000, .age_us = 0};
+
+    test_case("messages that find no room are counted");
+    start();
+    wire_is_full = true;
+    app_tick(&app, 0, &lidar);
+    wire_is_full = false;
+    CHECK(app.health[APP_HEALTH_DROPPED_AUTOPILOT] == 2U);
+    CHECK(app.health[APP_HEALTH_DROPPED_GROUND] == 2U); // HEARTBEAT and HEALTH
+}
+
+static void test_no_thresholds_yet(void)
+{
+    test_case("a frame without thresholds says nothing about clutter");
+    start();
+    scene_clear(&record);
+    const uint32_t first = app_min_area_px(&app);
+    record.header.flags = LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK;
+    give(0U);
+    CHECK(app_min_area_px(&app) == first);
+}
+
 void test_app(void)
 {
+    test_full_wire();
+    test_no_thresholds_yet();
     test_min_area();
     test_late_tick();
     test_rejected();
