@@ -245,7 +245,17 @@ def compare(
     out_dir.mkdir(parents=True, exist_ok=True)
     shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM))
     clocks, seconds = _run(shown, settings, memory or Memory(), out_dir)
-    result = read_result(out_dir, seconds)
+    objects = check_run(shown, out_dir, settings)
+    return Report(shown.shown, shown.shown * shown.width * shown.height, objects, clocks, seconds)
+
+
+def check_run(shown: FrameList, out_dir: Path, settings: Settings) -> int:
+    """Compare the streams and records that a run left in `out_dir`; return how many objects there were.
+
+    Raises:
+        StageMismatchError: as `compare`.
+    """
+    result = read_result(out_dir, 0.0)
     streams = {stage: _Stream(out_dir, stage) for stage in _PAYLOADS}
     objects = 0
     for index, golden in enumerate(run_frames(read_frame_list(shown), settings)):
@@ -258,7 +268,7 @@ def compare(
         objects += len(golden.objects)
     for stream in streams.values():
         stream.must_be_empty(shown.shown)
-    return Report(shown.shown, shown.shown * shown.width * shown.height, objects, clocks, seconds)
+    return objects
 
 
 def main() -> int:

@@ -34,7 +34,7 @@ constexpr int IRQ_F2P_0 = 29;  // shared peripheral interrupt: GIC ID 61
 constexpr uint64_t FINE_NS = 1'000;
 constexpr uint64_t COARSE_NS = 10'000;
 // Virtual time in which the firmware must enable the camera input.
-constexpr uint64_t BOOT_LIMIT_NS = 100'000'000;
+constexpr uint64_t BOOT_LIMIT_NS = 20'000'000;
 constexpr int OVERLAY_PRIORITY = 10;
 
 constexpr uint64_t UART_ADDRESS[2] = {0xE0000000, 0xE0001000};
@@ -201,7 +201,7 @@ private:
     void tick() {
         model_->advance_to(deadline_ns_);
         if (!enabled_ && deadline_ns_ > BOOT_LIMIT_NS)
-            fail("the firmware did not enable the camera input within 100 ms; look at its messages on UART1.");
+            fail("the firmware did not enable the camera input within 20 ms; look at its messages on UART1.");
         if (finished_ && deadline_ns_ >= last_pixel_ns_ + tail_ns_) {
             log_.end(deadline_ns_);
             leave(0);
