@@ -5,8 +5,8 @@
 // {frame number} and its response; then ring_head_*, written_frame_number and frame_done. So a buffer whose frame
 // number is not 0 is complete. docs/registers.md shows the record.
 //
-// Latency: object to the first address: 1 clock (first object of a frame: 3 clocks and one memory round trip). Trailer
-// to frame_done: two memory round trips and 11 clocks when nothing stalls.
+// Latency: object to its address: 1 clock; first object of a frame: 4 clocks and one memory round trip (last beat to
+// response). Trailer to frame_done: 12 clocks and two round trips.
 // Throughput: one object in 9 clocks, as long as MAX_OUTSTANDING bursts cover the latency of the memory.
 // AXI: write channels only, 64 bit, INCR, at most 8 beats, 64-byte aligned objects (no burst crosses 4 KiB), no IDs,
 // all strobes set: AXI4, and AXI3 when awlen[7:4] is left open. bready is always 1.
