@@ -59,6 +59,7 @@ def demo(
     rows = collect(frames, counted, result.frames, autopilot, ground)
     facts = Facts(
         source=frames.title,
+        sequential=frames.sequential,
         firmware=firmware,
         shown=len(result.frames),
         simulated_ns=result.simulated_ns,

@@ -64,12 +64,13 @@ def annotate(image: np.ndarray, row: Row) -> np.ndarray:
     small = 0 < width < _SMALL_RING_PX
     for name, index in shapes.items():
         _box(canvas, row.objects[index], _SHAPE_COLOURS[name], 1 if small else 2)
-        if not small:
-            _label(canvas, name, row.objects[index])
     if row.pad:
         _pad(canvas, row, width)
     if small:
         _magnified(canvas, image, row, width)
+    else:
+        for name, index in shapes.items():
+            _label(canvas, name, row.objects[index])
     _panel(canvas, row)
     return canvas
 

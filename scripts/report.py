@@ -33,6 +33,7 @@ class Facts:
 
     Attributes:
         source: What the frames are.
+        sequential: Each frame follows the one before, so that lines between them mean something.
         firmware: "qemu" or "host".
         shown: Frames that the camera showed, repeats included.
         simulated_ns: Simulated time.
@@ -42,6 +43,7 @@ class Facts:
     """
 
     source: str
+    sequential: bool
     firmware: str
     shown: int
     simulated_ns: int
@@ -82,7 +84,7 @@ def write_report(path: Path, rows: list[Row], pictures: Iterable[np.ndarray], fa
     sections = [
         _head(rows, facts),
         _cards(rows, facts),
-        _charts(rows),
+        _charts(rows, facts.sequential),
         f"<section><h2>Every frame</h2>{_table(rows)}<p class='note'>{_NOTE}</p></section>",
         f"<section><h2>What was seen</h2><div class='pictures'>{figures}</div></section>",
         _run_facts(facts),
@@ -133,7 +135,7 @@ def _cards(rows: list[Row], facts: Facts) -> str:
     )
 
 
-def _charts(rows: list[Row]) -> str:
+def _charts(rows: list[Row], joined: bool) -> str:
     names = [row.name for row in rows]
     altitude = [Series("firmware", [row.altitude_m for row in rows], "primary")]
     if any(row.truth for row in rows):
@@ -144,9 +146,9 @@ def _charts(rows: list[Row]) -> str:
     ]
     latency = [Series("latency", [row.latency_us for row in rows], "primary")]
     charts = [
-        chart("Altitude", "m", names, altitude),
-        chart("Offset to the pad", "m", names, offsets),
-        chart("Last pixel to last byte", "µs", names, latency),
+        chart("Altitude", "m", names, altitude, joined),
+        chart("Offset to the pad", "m", names, offsets, joined),
+        chart("Last pixel to last byte", "µs", names, latency, joined),
     ]
     return f"<section class='charts'>{''.join(charts)}</section>"
 

@@ -25,7 +25,7 @@ class Series:
     style: str
 
 
-def chart(title: str, unit: str, names: list[str], series: list[Series]) -> str:
+def chart(title: str, unit: str, names: list[str], series: list[Series], joined: bool = True) -> str:
     """A chart over the frames as an SVG element.
 
     Args:
@@ -33,6 +33,7 @@ def chart(title: str, unit: str, names: list[str], series: list[Series]) -> str:
         unit: Its unit.
         names: The frames.
         series: The lines, each with one value a frame.
+        joined: Draw lines from frame to frame, not points alone.
     """
     values = [value for one in series for value in one.values if value is not None]
     parts = [
@@ -68,7 +69,7 @@ def chart(title: str, unit: str, names: list[str], series: list[Series]) -> str:
             f"<text class='tick' x='{across(index):.1f}' y='{_HEIGHT - 8}' text-anchor='{anchor}'>{text}</text>"
         )
     for one in series:
-        for run in _runs(one.values):
+        for run in _runs(one.values) if joined else ():
             points = " ".join(f"{across(index):.1f},{down(one.values[index]):.1f}" for index in run)
             parts.append(f"<polyline class='{one.style}' points='{points}'/>")
         for index, value in enumerate(one.values):

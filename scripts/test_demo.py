@@ -329,6 +329,7 @@ def test_chart_keeps_to_its_frame_and_leaves_gaps() -> None:
     svg = chart("T", "m", list("abcde"), [Series("s", [1.0, 2.0, None, 3.0, 1.5], "primary")])
     assert svg.count("<polyline") == 2
     assert svg.count("<circle") == 4
+    assert "<polyline" not in chart("T", "m", ["a", "b"], [Series("s", [1.0, 2.0], "primary")], joined=False)
     heights = [float(value) for value in re.findall(r"cy='([\d.]+)'", svg)]
     assert all(40 <= height <= 190 for height in heights)
     assert heights[2] < heights[1] < heights[3] < heights[0]
