@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the C++ bench of tb/ccl/exhaustive around a verilated ccl: every small image, then hard large ones.
+
+The bench also checks what docs/cores/ccl.md promises of stalls and latency; see its main.cpp for the command line.
+"""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tb.common.cores import ROOT, load_core
+from tb.common.runner import check_simulator
+
+GAPS = [(0, 0), (30, 0), (0, 60), (25, 40)]
+"""Idle input and stalled output cycles, per cent each."""
+
+
+def build(width: int, height: int) -> Path:
+    """Return the bench for these MAX_WIDTH and MAX_HEIGHT."""
+    check_simulator("verilator")
+    core = load_core("ccl")
+    folder = ROOT / "build/sim/ccl/exhaustive" / f"{width}x{height}"
+    folder.mkdir(parents=True, exist_ok=True)
+    command = ["verilator", "--cc", "--exe", "--build", "-O3", "--top-module", core.toplevel]
+    command += [f"-GMAX_WIDTH={width}", f"-GMAX_HEIGHT={height}", f"-I{ROOT / 'rtl/generated'}"]
+    command += ["-CFLAGS", f"-O2 -std=c++17 -Wall -Wextra -Werror -I{ROOT / 'tb/ccl/exhaustive'}"]
+    command += ["--Mdir", str(folder), "-o", "ccl_exhaustive"]
+    command += [*map(str, core.sources), str(ROOT / "tb/ccl/exhaustive/main.cpp")]
+    environment = {"OBJCACHE": "ccache", **os.environ}
+    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return folder / "ccl_exhaustive"
+
+
+def run(bench: Path, *arguments: object) -> None:
+    """Run the bench; its last line says what it did, a failure shows the image and the command."""
+    command = [str(bench), *map(str, arguments)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    print(f"{' '.join(command[1:])}: {result.stdout.strip()}")
+    assert result.returncode == 0, f"{result.stderr}replay: {' '.join(command)}"
+
+
+@pytest.fixture(scope="module")
+def small() -> Path:
+    """Bench for images of up to 12x12."""
+    return build(12, 12)
+
+
+@pytest.fixture(scope="module")
+def large() -> Path:
+    """Bench for images of up to 1280x720."""
+    return build(1280, 720)
+
+
+@pytest.mark.parametrize(("idle", "stall"), GAPS)
+def test_every_4x4_image(small: Path, idle: int, stall: int) -> None:
+    run(small, "--idle", idle, "--stall", stall, "all", 4, 4)
+
+
+@pytest.mark.parametrize("size", [(1, 12), (12, 1), (2, 8), (8, 2), (3, 5), (5, 3)])
+def test_every_narrow_image(small: Path, size: tuple[int, int]) -> None:
+    run(small, "all", *size)
+
+
+@pytest.mark.parametrize("idle_stall", list(enumerate(GAPS)))
+def test_random_images(small: Path, idle_stall: tuple[int, tuple[int, int]]) -> None:
+    seed, (idle, stall) = idle_stall
+    run(small, "--seed", seed, "--idle", idle, "--stall", stall, "random", 100000, 1, 12)
+
+
+@pytest.mark.parametrize(("idle", "stall"), GAPS)
+def test_random_images_through_the_full_size_core(large: Path, idle: int, stall: int) -> None:
+    run(large, "--idle", idle, "--stall", stall, "random", 5000, 1, 60)
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1279, 719)])
+def test_hard_whole_frames(large: Path, size: tuple[int, int]) -> None:
+    run(large, "structured", *size)
+
+
+def test_hard_whole_frames_with_gaps(large: Path) -> None:
+    run(large, "--idle", 20, "--stall", 70, "structured", 1280, 720)
+
+
+@pytest.mark.full
+def test_every_5x5_image(small: Path) -> None:
+    run(small, "all", 5, 5)
