@@ -24,7 +24,7 @@ module async_fifo #(
 );
 
   generate
-    if (DEPTH_LOG2 < 2) begin : depth_check
+    if (DEPTH_LOG2 < 2) begin : g_depth
       ERROR_depth_log2_must_be_at_least_2 error_instance ();
     end
   endgenerate

@@ -54,10 +54,10 @@ module video_in #(
   localparam DEPTH_LOG2 = $clog2(FIFO_DEPTH);
 
   generate
-    if (FIFO_DEPTH < 4 || (1 << DEPTH_LOG2) != FIFO_DEPTH) begin : fifo_depth_check
+    if (FIFO_DEPTH < 4 || (1 << DEPTH_LOG2) != FIFO_DEPTH) begin : g_fifo_depth
       ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4 error_instance ();
     end
-    if (MAX_WIDTH < 1 || MAX_WIDTH > 32767 || MAX_HEIGHT < 1 || MAX_HEIGHT > 32767) begin : size_check
+    if (MAX_WIDTH < 1 || MAX_WIDTH > 32767 || MAX_HEIGHT < 1 || MAX_HEIGHT > 32767) begin : g_size
       ERROR_max_width_and_max_height_must_be_1_to_32767 error_instance ();
     end
   endgenerate
