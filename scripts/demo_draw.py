@@ -210,7 +210,8 @@ def _figures(row: Row) -> list[tuple[str, str, tuple[int, int, int]]]:
         ]
     if row.altitude_m is not None:
         figures.insert(-1 if row.pad else len(figures), ("altitude", f"{row.altitude_m:.3f} m", _WHITE))
-    figures.append(("objects", str(len(row.objects)), _WHITE))
+    dropped = int(row.record["header"]["objects_dropped"])
+    figures.append(("objects", f"{len(row.objects)} + {dropped} dropped" if dropped else str(len(row.objects)), _WHITE))
     if row.target and row.latency_us is not None:
         figures.append(("LANDING_TARGET", f"#{row.target.sequence}", _WHITE))
         figures.append(("last pixel to last byte", f"{row.latency_us:.0f} µs", _WHITE))
