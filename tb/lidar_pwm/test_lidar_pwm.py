@@ -160,15 +160,15 @@ def long_gap() -> float:
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def measures_whole_microseconds_exactly(dut: HierarchyObject) -> None:
-    """Pulses of a whole number of microseconds, from the shortest to the longest."""
+    """Pulses of a whole number of microseconds, from the shortest to the longest, at every phase of the tick."""
     bench = Bench(dut, Random(getrandbits(32)))
     await bench.start()
     assert int(dut.age_us.value) == NEVER, f"age_us before any reading: {int(dut.age_us.value)}; {where()}"
     await bench.enable()
     await bench.settle()
-    widths = [LIMITS.min_mm, LIMITS.min_mm + 1, 123, LIMITS.max_mm - 1, LIMITS.max_mm]
+    widths = [LIMITS.min_mm, LIMITS.min_mm + 1, LIMITS.max_mm - 1, LIMITS.max_mm] + [123] * CLOCKS_PER_US
     for count, width in enumerate(widths, 1):
-        await bench.pulse(width, gap_us=LIMITS.min_mm + FILTER_US)
+        await bench.pulse(width, gap_us=LIMITS.min_mm + FILTER_US + 1 / CLOCKS_PER_US)
         await bench.settle()
         bench.expect_reading(width, count)
         bench.expect("ok", 1, f"after {width} us")

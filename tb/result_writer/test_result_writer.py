@@ -147,7 +147,7 @@ class Bench:
         """Expect no header any more of the frames that were sent: the writer skips it after an error."""
         self._without_header.clear()
 
-    async def settle(self, limit: int = 60_000) -> None:
+    async def settle(self, limit: int = 25_000) -> None:
         """Wait until everything is sent and nothing has happened for a while."""
         quiet, start = 0, self.memory.cycle
         while quiet < 400:
