@@ -138,19 +138,21 @@ def _starts_in_a_row(rng: Random, core: VideoCore) -> list[Beat]:
 
 
 def _illegal_size(rng: Random, core: VideoCore) -> list[Beat]:
+    """Frames that are what the configuration says, but whose size the core must refuse; each before a good one."""
     limits = core.limits
     sizes = [
         (limits.max_width + 1, limits.min_height),
         (limits.min_width, limits.max_height + 1),
-        (limits.min_width - 1, limits.min_height),
-        (limits.min_width, limits.min_height - 1),
-        (65535, 65535),
+        (limits.min_width - 1, limits.min_height + 1),
+        (limits.min_width + 1, limits.min_height - 1),
     ]
     beats = []
     for size in sizes:
-        good = _frame(rng, core)
-        bad = _frame(rng, core)
-        beats += [bad[0]._replace(size=size), *bad[1:], *good]
+        if min(size) > 0:
+            beats += _frame(rng, core, size) + _frame(rng, core)
+    for size in ((0, 0), (65535, 65535)):
+        start, *rest = _frame(rng, core)
+        beats += [start._replace(size=size), *rest, *_frame(rng, core)]
     return beats
 
 
