@@ -83,10 +83,13 @@ def run_core(
         indices = range(config_index, config_index + 1)
     else:
         raise UserError(f"{core.name} has no config {config_index}; choose 0 to {len(core.configs) - 1}.")
-    return [_run_config(core, sim, index, seed=seed, waves=waves, testcase=testcase) for index in indices]
+    return [run_config(core, sim, index, seed=seed, waves=waves, testcase=testcase) for index in indices]
 
 
-def _run_config(core: Core, sim: str, index: int, *, seed: int, waves: bool, testcase: str | None) -> Result:
+def run_config(
+    core: Core, sim: str, index: int, *, seed: int, waves: bool = False, testcase: str | None = None
+) -> Result:
+    """Build and run one config of a core that was loaded."""
     folder = ROOT / "build/sim" / core.name / sim / (core.config_name(index) + ("-waves" if waves else ""))
     folder.mkdir(parents=True, exist_ok=True)
     build_log, test_log, results = folder / "build.log", folder / "test.log", folder / "results.xml"
