@@ -69,6 +69,7 @@ def video_in(
     vsync: npt.ArrayLike,
     width: npt.ArrayLike,
     height: npt.ArrayLike,
+    *,
     enable: npt.ArrayLike = True,
     max_size: tuple[int, int] = (1280, 720),
     vsync_active: bool = True,
