@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "classify.h"
+#include "pad_geometry.h"
 #include "test.h"
 #include "test_scene.h"
 
@@ -55,6 +56,42 @@ static void test_missing_shapes(void)
     CHECK(!found());
 }
 
+static bool displaced_small_ring(double x_mm, double y_mm)
+{
+    return scene_small_ring(x_mm - 40.0, y_mm);
+}
+
+static bool displaced_ring(double x_mm, double y_mm)
+{
+    return scene_ring(x_mm - 60.0, y_mm);
+}
+
+static bool filled_small_ring(double x_mm, double y_mm)
+{
+    return x_mm * x_mm + y_mm * y_mm <= SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM;
+}
+
+static void test_wrong_witness(void)
+{
+    const struct scene close = {.height_m = 0.3, .heading_deg = 10.0};
+
+    test_case("a small ring beside the line is no witness");
+    scene_clear(&record);
+    scene_paint(&record, &close, scene_square);
+    scene_paint(&record, &close, scene_rectangle);
+    scene_paint(&record, &close, displaced_small_ring);
+    CHECK(!found());
+    test_case("nor is a blob in its place");
+    scene_clear(&record);
+    scene_paint(&record, &close, scene_square);
+    scene_paint(&record, &close, scene_rectangle);
+    scene_paint(&record, &close, filled_small_ring);
+    CHECK(!found());
+    test_case("nor is a ring around something else");
+    scene_paint(&record, &close, displaced_ring);
+    CHECK(!found());
+}
+
 static void test_two_pads(void)
 {
     const struct scene whole = {.height_m = 1.2, .right_m = -0.5};
@@ -94,6 +131,7 @@ static void test_clutter(void)
 void test_classify(void)
 {
     test_missing_shapes();
+    test_wrong_witness();
     test_two_pads();
     test_clutter();
 }
