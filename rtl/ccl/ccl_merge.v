@@ -40,11 +40,11 @@ module ccl_merge #(
     assign y[MAX_Y+:Y_BITS] = a[MAX_Y+:Y_BITS] > b[MAX_Y+:Y_BITS] ? a[MAX_Y+:Y_BITS] : b[MAX_Y+:Y_BITS];
 
     generate
-        if (MOMENTS >= 1) begin : first
+        if (MOMENTS >= 1) begin : g_first
             assign y[SUM_X+:SUM_X_BITS] = a[SUM_X+:SUM_X_BITS] + b[SUM_X+:SUM_X_BITS];
             assign y[SUM_Y+:SUM_Y_BITS] = a[SUM_Y+:SUM_Y_BITS] + b[SUM_Y+:SUM_Y_BITS];
         end
-        if (MOMENTS >= 2) begin : second
+        if (MOMENTS >= 2) begin : g_second
             assign y[SUM_XX+:SUM_XX_BITS] = a[SUM_XX+:SUM_XX_BITS] + b[SUM_XX+:SUM_XX_BITS];
             assign y[SUM_YY+:SUM_YY_BITS] = a[SUM_YY+:SUM_YY_BITS] + b[SUM_YY+:SUM_YY_BITS];
             assign y[SUM_XY+:SUM_XY_BITS] = a[SUM_XY+:SUM_XY_BITS] + b[SUM_XY+:SUM_XY_BITS];

@@ -65,7 +65,7 @@ module ccl_run #(
     assign record[BOX_END-1:0] = {line_reg, last_x_reg, ~line_reg, ~first_x_reg, length_reg};
 
     generate
-        if (MOMENTS >= 1) begin : first
+        if (MOMENTS >= 1) begin : g_first
             localparam [SUM_X_BITS-1:0] SUM_X_MASK = ~({SUM_X_BITS{1'b1}} << (2 * X_BITS - 1));
             localparam [SUM_Y_BITS-1:0] SUM_Y_MASK = ~({SUM_Y_BITS{1'b1}} << (X_BITS + Y_BITS));
             wire [SUM_X_BITS-1:0] x = {{(SUM_X_BITS - X_BITS) {1'b0}}, x_reg};
@@ -81,7 +81,7 @@ module ccl_run #(
             end
             assign record[FIRST_END-1:BOX_END] = {sum_y_reg, sum_x_reg};
         end
-        if (MOMENTS >= 2) begin : second
+        if (MOMENTS >= 2) begin : g_second
             localparam [SUM_XX_BITS-1:0] SUM_XX_MASK = ~({SUM_XX_BITS{1'b1}} << (3 * X_BITS - 1));
             localparam [SUM_YY_BITS-1:0] SUM_YY_MASK = ~({SUM_YY_BITS{1'b1}} << (X_BITS + 2 * Y_BITS));
             localparam [SUM_XY_BITS-1:0] SUM_XY_MASK = ~({SUM_XY_BITS{1'b1}} << (2 * X_BITS + Y_BITS - 1));

@@ -93,21 +93,21 @@ module ccl_send #(
         {{(OBJECT_AREA_WIDTH - AREA_BITS) {1'b0}}, record[0+:AREA_BITS]}
     };
     generate
-        if (MOMENTS >= 1) begin : first
+        if (MOMENTS >= 1) begin : g_first
             assign m_axis_tdata[OBJECT_SUM_XX_LSB-1:OBJECT_SUM_X_LSB] = {
                 {{(OBJECT_SUM_Y_WIDTH - SUM_Y_BITS) {1'b0}}, record[SUM_Y+:SUM_Y_BITS]},
                 {{(OBJECT_SUM_X_WIDTH - SUM_X_BITS) {1'b0}}, record[SUM_X+:SUM_X_BITS]}
             };
-        end else begin : no_first
+        end else begin : g_no_first
             assign m_axis_tdata[OBJECT_SUM_XX_LSB-1:OBJECT_SUM_X_LSB] = 0;
         end
-        if (MOMENTS >= 2) begin : second
+        if (MOMENTS >= 2) begin : g_second
             assign m_axis_tdata[OBJECT_RESERVED_1_LSB-1:OBJECT_SUM_XX_LSB] = {
                 {{(OBJECT_SUM_XY_WIDTH - SUM_XY_BITS) {1'b0}}, record[SUM_XY+:SUM_XY_BITS]},
                 {{(OBJECT_SUM_YY_WIDTH - SUM_YY_BITS) {1'b0}}, record[SUM_YY+:SUM_YY_BITS]},
                 {{(OBJECT_SUM_XX_WIDTH - SUM_XX_BITS) {1'b0}}, record[SUM_XX+:SUM_XX_BITS]}
             };
-        end else begin : no_second
+        end else begin : g_no_second
             assign m_axis_tdata[OBJECT_RESERVED_1_LSB-1:OBJECT_SUM_XX_LSB] = 0;
         end
     endgenerate
