@@ -59,26 +59,32 @@ def qemu() -> str:
     return path
 
 
-def boot(qemu: str, elf: Path, folder: Path, enough: int) -> tuple[bytes, bytes]:
-    """Run the ELF until UART1 has sent `enough` bytes; return what both UARTs sent."""
+def boot(qemu: str, elf: Path, folder: Path, enough: int) -> tuple[bytes, bytes, str]:
+    """Run the ELF until UART1 has sent `enough` bytes.
+
+    Returns:
+        What UART0 and UART1 sent, and what the CPU then sees at address 0 and at the first instruction.
+    """
     uarts = [folder / "uart0.bin", folder / "uart1.bin"]
     command = [
         *(qemu, "-M", "xilinx-zynq-a9", "-m", "512M", "-icount", "shift=1,sleep=off"),
-        *("-display", "none", "-nodefaults", "-monitor", "none"),
+        *("-display", "none", "-nodefaults", "-monitor", "stdio"),
         *(option for uart in uarts for option in ("-serial", f"file:{uart}")),
         *("-kernel", str(elf)),
     ]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    pipe = subprocess.PIPE
+    process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
     try:
         deadline = time.monotonic() + BOOT_LIMIT_S
         while not (uarts[1].exists() and uarts[1].stat().st_size >= enough):
             assert process.poll() is None, f"QEMU ended: {process.stderr.read() if process.stderr else ''}"
             assert time.monotonic() < deadline, f"UART1 sent less than {enough} bytes in {BOOT_LIMIT_S} s"
             time.sleep(0.05)
+        monitor, _ = process.communicate("x /1wx 0\nx /1wx 0x100000\nquit\n", timeout=BOOT_LIMIT_S)
     finally:
         process.kill()
         process.wait()
-    return uarts[0].read_bytes(), uarts[1].read_bytes()
+    return uarts[0].read_bytes(), uarts[1].read_bytes(), monitor
 
 
 def whole(data: bytes) -> bytes:
@@ -92,7 +98,10 @@ def whole(data: bytes) -> bytes:
 def test_boot_without_hardware(qemu: str, tmp_path: Path) -> None:
     """The ID reads 0: the ground station is told why, heartbeats say CRITICAL, and nothing claims a distance."""
     make("elf")
-    autopilot, ground = (decode(whole(data)) for data in boot(qemu, BUILD / "touchdown.elf", tmp_path, 2000))
+    uart0, uart1, monitor = boot(qemu, BUILD / "touchdown.elf", tmp_path, 2000)
+    assert "Cannot access memory" in monitor, f"the MMU does not catch null pointers: {monitor}"
+    assert re.search(r"00100000: 0x[0-9a-f]{8}", monitor), f"the MMU does not map the code: {monitor}"
+    autopilot, ground = decode(whole(uart0)), decode(whole(uart1))
     assert {message.get_type() for message in autopilot} == {"HEARTBEAT"}
     assert {message.get_type() for message in ground} == {"HEARTBEAT", "STATUSTEXT"}
     for message in (*autopilot, *ground):
