@@ -2,7 +2,6 @@
 """The altitude that the simulated LiDAR measures in each frame."""
 
 import csv
-import math
 from pathlib import Path
 
 from scripts.errors import UserError
@@ -90,7 +89,8 @@ def _number(text: str) -> float | None:
 
 
 def _checked(value: float, where: str) -> float:
-    if not (math.isfinite(value) and 0.0 < value <= MAX_ALTITUDE_M):
+    # Not a number fails every comparison, so it is refused here too.
+    if not 0.0 < value <= MAX_ALTITUDE_M:
         raise UserError(
             f"{where} gives an altitude of {value:g} m; it must be above 0 and at most {MAX_ALTITUDE_M:g} m."
         )

@@ -255,6 +255,20 @@ def test_noise_gradient_and_shadow_do_what_they_say() -> None:
     assert shadowed[paper].max() > 205
 
 
+def test_noise_differs_between_seeds_and_between_frames_of_a_clip() -> None:
+    camera = Camera().scaled(4)
+    look = Look(ground_gain=0.0, noise_sigma=3.0)
+
+    def paper(altitude: float, seed: int) -> np.ndarray:
+        """Levels around the ring's edge-free top, which are alike but for the noise."""
+        return render(Pose(altitude_m=altitude), look, camera, seed)[0][5:9, 150:170, 0].astype(int)
+
+    first = paper(0.25, 1)
+    assert np.array_equal(first, paper(0.25, 1))
+    assert (first != paper(0.25, 2)).mean() > 0.5
+    assert (first != paper(0.2501, 1)).mean() > 0.5
+
+
 def test_poses_out_of_the_ordinary() -> None:
     camera = Camera().scaled(4)
     for pose in (Pose(1.0, right_m=30.0), Pose(30.0), Pose(0.05), Pose(1.0, roll_deg=45.0, pitch_deg=30.0)):
