@@ -52,11 +52,11 @@ module frame_tracker #(
   localparam Y_BITS = index_bits(MAX_HEIGHT);
 
   generate
-    if (MIN_WIDTH < 1 || MAX_WIDTH < MIN_WIDTH || MAX_WIDTH > 65535) begin : g_width
-      ERROR_max_width_must_be_at_least_the_least_width_and_fit_16_bits error_instance ();
+    if (MIN_WIDTH < 1 || MAX_WIDTH < MIN_WIDTH || MAX_WIDTH > 32768) begin : g_width
+      ERROR_max_width_must_be_at_least_the_least_width_and_at_most_32768 error_instance ();
     end
-    if (MIN_HEIGHT < 1 || MAX_HEIGHT < MIN_HEIGHT || MAX_HEIGHT > 65535) begin : g_height
-      ERROR_max_height_must_be_at_least_the_least_height_and_fit_16_bits error_instance ();
+    if (MIN_HEIGHT < 1 || MAX_HEIGHT < MIN_HEIGHT || MAX_HEIGHT > 32768) begin : g_height
+      ERROR_max_height_must_be_at_least_the_least_height_and_at_most_32768 error_instance ();
     end
   endgenerate
 
