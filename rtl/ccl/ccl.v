@@ -4,15 +4,16 @@
 //
 // Stream in      1 bit a pixel; frame contract of docs/design.md.
 // Stream out     object stream of docs/design.md, in the raster order of the components' last pixels.
-// Throughput     1 pixel a clock, blanking not needed, for every image. After the last pixel of a frame the input is stalled
-//                until the trailer is queued: (runs of set pixels in the last line) + 9 clocks, at most MAX_WIDTH / 2 + 10.
-// Latency        a component is on m_axis at most 10 accepted pixels or free clocks after the pixel right below and one to the
-//                right of its last pixel (in raster order), if the output is free.
-// Backpressure   nothing is lost: a stalled output stalls the input. 22 components are queued before that.
+// Throughput     1 pixel a clock, blanking not needed, for every image. From the last pixel of a frame to the first of the next
+//                10 clocks and one for each run of set pixels in the last line: at most 10 + (MAX_WIDTH + 1) / 2.
+// Latency        an object comes 8 clocks after the pixel right below and one to the right of its last pixel (in raster order);
+//                9 if the line ends there; in the last line with the flush. See docs/cores/ccl.md.
+// Backpressure   nothing is lost: a stalled output stalls the input. 25 components are queued before that.
 // Overflow       none: memories hold the worst case of MAX_WIDTH, sums the worst case of a frame.
 // Sampling       cfg_* are sampled with the start of each frame.
 // Malformed      all unfinished components are forgotten in one clock; those already sent stay sent, no trailer follows, and
-//                tuser marks the first beat of the next frame.
+//                tuser marks the first beat of the next frame. A frame cut off within 6 pixels is filtered with the
+//                cfg_min_area of the next one.
 // Limits         MAX_WIDTH and MAX_HEIGHT from 4. MOMENTS 0: only area and box; 1: and sums of x, y; 2: and of xx, yy, xy.
 //                Sums that are not built are 0 in the beat.
 

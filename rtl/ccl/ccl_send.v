@@ -36,8 +36,8 @@ module ccl_send #(
 
     localparam DEPTH_BITS = 5;
     localparam DEPTH = 1 << DEPTH_BITS;
-    // An event that leaves ccl_scan as almost_full rises is found 7 clocks later.
-    localparam RESERVE = 10;
+    // At one component a clock: five in ccl_store, one in ccl_lists, one leaves ccl_scan as almost_full rises.
+    localparam RESERVE = 7;
 
     reg [RECORD_BITS+1:0] queue[0:DEPTH-1];
     reg [DEPTH_BITS:0] write_reg, read_reg;

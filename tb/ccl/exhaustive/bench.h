@@ -123,6 +123,7 @@ private:
     bool in_frame = false;
     uint64_t last_line_runs = 0;
     bool after_complete = false;
+    uint64_t blocked = 0;
     bool held = false;
     uint32_t held_beat[17] = {};
 
@@ -139,7 +140,10 @@ private:
 
     // One clock; returns whether the source's beat was taken.
     bool cycle() {
-        dut.m_axis_tready = !percent(stall_percent);
+        // Now and then long enough to fill the queue.
+        if (stall_percent != 0 && blocked == 0 && rng() % 500 == 0) blocked = rng() % 200;
+        blocked -= blocked != 0;
+        dut.m_axis_tready = blocked == 0 && !percent(stall_percent);
         dut.clk = 0;
         dut.eval();
         const bool taken = dut.s_axis_tvalid && dut.s_axis_tready;
