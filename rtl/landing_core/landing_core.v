@@ -286,7 +286,7 @@ module landing_core #(
     wire median_tvalid, median_tready, median_tuser, median_tlast;
     wire dilated_tvalid, dilated_tready, dilated_tuser, dilated_tlast;
     wire objects_tvalid, objects_tready, objects_tuser, objects_tlast;
-    wire thresholds_missing, thresholds_stale;
+    wire thresholds_missing, unused_stale;
     wire [6:0] unused_errors;
 
     rgb2gray to_gray (
@@ -377,7 +377,7 @@ module landing_core #(
         .m_axis_tuser(binary_tuser),
         .m_axis_tlast(binary_tlast),
         .thresholds_missing(thresholds_missing),
-        .thresholds_stale(thresholds_stale),
+        .thresholds_stale(unused_stale),
         .frame_error(unused_errors[2])
     );
 
@@ -485,6 +485,11 @@ module landing_core #(
     reg        frame_stale_reg;
     reg [31:0] scan_time_us_reg;
 
+    // Thresholds come from the last complete frame. threshold_apply would say whether they are stale, but does not see
+    // frames that end before it; the camera numbers them all.
+    reg [31:0] complete_number_reg;
+    wire       stale = !thresholds_missing && camera_frame_number != complete_number_reg + 32'd1;
+
     always @(posedge clk) begin
         if (frame_started) begin
             frame_number_reg <= camera_frame_number;
@@ -494,9 +499,12 @@ module landing_core #(
             frame_factor_reg <= factor_reg;
             frame_min_area_reg <= min_area_reg;
             frame_missing_reg <= thresholds_missing;
-            frame_stale_reg <= thresholds_stale;
+            frame_stale_reg <= stale;
         end
-        if (last_pixel) scan_time_us_reg <= time_us_reg[31:0] - frame_start_us_reg[31:0];
+        if (last_pixel) begin
+            scan_time_us_reg <= time_us_reg[31:0] - frame_start_us_reg[31:0];
+            complete_number_reg <= frame_number_reg;
+        end
     end
 
     result_writer #(

@@ -1,0 +1,392 @@
+# SPDX-License-Identifier: Apache-2.0
+"""landing_core through its ports, against the golden chain; every stream between its cores is watched.
+
+sim/test_stages.py compares the streams themselves, and frames of full size.
+"""
+
+from dataclasses import replace
+from random import Random, getrandbits
+
+import cocotb
+import numpy as np
+from cocotb.clock import Clock
+from cocotb.handle import HierarchyObject
+from cocotb.triggers import ClockCycles, RisingEdge
+from cocotb.types import LogicArray
+from cocotb.utils import get_sim_time
+from cocotbext.axi import AxiLiteBus, AxiLiteMaster
+
+from golden.chain import Settings, run_chain
+from golden.generated import landing_regs as regs
+from golden.result_writer import record
+from tb.common.axi_memory import AxiMemory
+from tb.common.run import four_state, parameter, where
+from tb.common.stream import CLOCK_NS, StreamMonitor
+from tb.video_in.tb_video_in import Blanking, Raw, model, spoil
+
+MAX_WIDTH, MAX_HEIGHT = parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720)
+MAX_OBJECTS = parameter("MAX_OBJECTS", 256)
+CLK_PER_US = parameter("CLK_PER_US", 100)
+PIX_NS = 13.468
+RING_BASE = 0x1F30_0000
+STREAMS = ("rgb", "gray", "smooth", "checked", "stats", "binary", "eroded", "median", "dilated", "objects")
+# Lines as far apart as 720p60 has them in proportion; enough between frames to flush the borders.
+BLANKING = Blanking(line=14, front=150, sync=60, back=250)
+LIMIT_US = 3000  # of simulated time; no test comes near
+
+
+class Bench:
+    """Both clocks, camera, memory, CPU, LiDAR pin, and a checker on every stream inside."""
+
+    def __init__(self, dut: HierarchyObject) -> None:
+        self.dut, self.rng = dut, Random(getrandbits(64))
+        self.settings = Settings(min_area=3)
+        self.size = (MAX_WIDTH, MAX_HEIGHT)
+        self.last_pixel_ns = 0.0
+        dut.rst.value = 1
+        dut.lidar_in.value = 0
+        dut.vid_hsync.value = 0
+        self._drive(0, 0, 0)
+        cocotb.start_soon(Clock(dut.clk, CLOCK_NS, unit="ns").start())
+        cocotb.start_soon(Clock(dut.pix_clk, round(PIX_NS / 2, 3) * 2, unit="ns").start())
+        self.cpu = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "s_axil"), dut.clk, dut.rst)
+        self.memory = AxiMemory(dut, "m_axi", dut.clk, dut.rst, Random(self.rng.getrandbits(64)))
+        self.monitors = {name: StreamMonitor(dut, name, dut.clk, dut.rst) for name in STREAMS}
+
+    async def reset(self) -> None:
+        """Reset and configure."""
+        self.dut.rst.value = 1
+        await ClockCycles(self.dut.clk, 8)
+        self.dut.rst.value = 0
+        await ClockCycles(self.dut.clk, 8)
+        await self.write(regs.RING_BASE_OFFSET, RING_BASE)
+        await self.write(regs.IRQ_ENABLE_OFFSET, regs.IRQ_STATUS_FRAME_DONE_MASK)
+        await self.configure(self.settings, self.size)
+
+    async def configure(self, settings: Settings, size: tuple[int, int]) -> None:
+        """Write the registers that a frame depends on."""
+        self.settings, self.size = settings, size
+        await self.write(regs.FRAME_SIZE_OFFSET, size[1] << 16 | size[0])
+        await self.write(regs.THRESHOLD_OFFSET, settings.factor)
+        await self.write(regs.MIN_AREA_OFFSET, settings.min_area)
+        dark = settings.dark_is_one << regs.CTRL_DARK_IS_ONE_SHIFT
+        zeros = settings.label_zeros << regs.CTRL_LABEL_ZEROS_SHIFT
+        await self.write(regs.CTRL_OFFSET, dark | zeros | regs.CTRL_ENABLE_MASK)
+        await ClockCycles(self.dut.clk, 40)
+
+    async def read(self, offset: int) -> int:
+        """Read one register."""
+        return int.from_bytes((await self.cpu.read(offset, 4)).data, "little")
+
+    async def write(self, offset: int, value: int) -> None:
+        """Write one register."""
+        await self.cpu.write(offset, value.to_bytes(4, "little"))
+
+    async def play(self, raw: Raw) -> None:
+        """Drive the camera."""
+        edge = RisingEdge(self.dut.pix_clk)
+        await edge
+        for data, de, vsync in zip(raw.data, raw.de, raw.vsync, strict=True):
+            self._drive(data, de, vsync)
+            await edge
+            if de:
+                self.last_pixel_ns = get_sim_time("ns")
+        self._drive(0, 0, raw.vsync[-1])
+
+    async def settle(self) -> None:
+        """Wait until the last record is written."""
+        await ClockCycles(self.dut.clk, 1500)
+
+    def _drive(self, data: int, de: int, vsync: int) -> None:
+        idle = LogicArray("X" * 24) if four_state() else self.rng.getrandbits(24)
+        self.dut.vid_data.value = data if de else idle
+        self.dut.vid_de.value, self.dut.vid_vsync.value = de, vsync
+
+    async def check_ring(self, published: list["Expected"], unwritten: int = 0) -> None:
+        """Assert that the ring holds the newest of `published`, and that the registers say so."""
+        newest = published[-regs.RING_BUFFERS :]
+        for index, expected in enumerate(published):
+            if expected in newest:
+                expected.check(self, index % regs.RING_BUFFERS)
+        head = await self.read(regs.RING_HEAD_OFFSET)
+        last = (len(published) - 1) % regs.RING_BUFFERS
+        assert head == (regs.RING_HEAD_VALID_MASK | last if published else 0), f"RING_HEAD 0x{head:08x}; {where()}"
+        number = await self.read(regs.FRAME_NUMBER_OFFSET)
+        wanted = published[-1].number if published else 0
+        assert number == wanted, f"FRAME_NUMBER {number}, expected {wanted}; {where()}"
+        lost = await self.read(regs.FRAMES_UNWRITTEN_OFFSET)
+        assert lost == unwritten, f"FRAMES_UNWRITTEN {lost}, expected {unwritten}; {where()}"
+
+
+class Expected:
+    """A frame that must give a record; `before` is the last complete one before it."""
+
+    def __init__(
+        self,
+        number: int,
+        rgb: np.ndarray,
+        before: "Expected | None",
+        settings: Settings,
+        *,
+        stale: bool = False,
+        malformed: int = 0,
+        altitude_mm: int | None = None,
+    ) -> None:
+        self.number, self.settings = number, settings
+        self.stages = run_chain(rgb, before.stages.stats if before else None, settings)
+        self.values = {
+            "frame_number": number,
+            "frame_size_width": rgb.shape[1],
+            "frame_size_height": rgb.shape[0],
+            "threshold_factor": settings.factor,
+            "min_area": settings.min_area,
+            "thresholds_missing": int(before is None),
+            "thresholds_stale": int(stale),
+            "frames_malformed": malformed,
+            "altitude_valid": int(altitude_mm is not None),
+        }
+        self.altitude_mm = altitude_mm
+
+    def check(self, bench: Bench, buffer: int) -> None:
+        """Assert that a buffer holds this record, byte for byte; times and altitude within bounds."""
+        address = RING_BASE + buffer * regs.RING_STRIDE_BYTES
+        size = regs.HEADER_DTYPE.itemsize + len(self.stages.objects[:MAX_OBJECTS]) * regs.OBJECT_DTYPE.itemsize
+        got = bench.memory.read(address, size)
+        header = np.frombuffer(got, regs.HEADER_DTYPE, 1)[0]
+        name = f"record of frame {self.number} in buffer {buffer}"
+        height, width = self.stages.gray.shape
+        camera_us = ((width + BLANKING.line) * height - BLANKING.line) * PIX_NS / CLOCK_NS / CLK_PER_US
+        flush_us = (7 * width + 200) / CLK_PER_US
+        scan_us = int(header["scan_time_us"])
+        assert camera_us - 1 < scan_us < camera_us + flush_us, f"{name}: scan_time_us {scan_us}; {where()}"
+        if self.altitude_mm is not None:
+            assert abs(int(header["altitude_mm"]) - self.altitude_mm) <= 1, f"{name}: {header['altitude_mm']} mm"
+        given = ("start_time_us", "scan_time_us", "altitude_mm", "altitude_age_us")
+        values = {**self.values, **{key: int(header[key]) for key in given}}
+        wanted = record(values, self.stages.objects, MAX_OBJECTS)
+        if got == wanted:
+            return
+        expected = np.frombuffer(wanted, regs.HEADER_DTYPE, 1)[0]
+        for key in regs.HEADER_DTYPE.names:
+            assert header[key] == expected[key], f"{name}: {key} {header[key]}, expected {expected[key]}; {where()}"
+        start = regs.HEADER_DTYPE.itemsize
+        objects = (np.frombuffer(data, regs.OBJECT_DTYPE, offset=start) for data in (wanted, got))
+        for index, (one, other) in enumerate(zip(*objects, strict=True)):
+            assert one == other, f"{name}, object {index}: expected {one}, got {other}; {where()}"
+
+
+def picture(rng: Random, width: int, height: int) -> np.ndarray:
+    """Return RGB with boxes of both polarities on noise; now and then with more objects than fit."""
+    noise = np.random.default_rng(rng.getrandbits(64))
+    if rng.random() < 0.2:
+        return noise.integers(0, 256, (height, width, 3), dtype=np.uint8)
+    rgb = noise.integers(150, 190, (height, width, 3), dtype=np.uint8)
+    for _ in range(rng.randint(0, 8)):
+        x, y = rng.randrange(width), rng.randrange(height)
+        rgb[y : y + rng.randint(3, 12), x : x + rng.randint(3, 12)] = rng.choice((20, 250))
+    return rgb
+
+
+def lines_of(rgb: np.ndarray) -> list[list[int]]:
+    """Return the words that the camera sends for a picture."""
+    words = rgb.astype(int) @ np.array([1 << 16, 1 << 8, 1])
+    return words.tolist()
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def registers_tell_what_was_built(dut: HierarchyObject) -> None:
+    bench = Bench(dut)
+    await bench.reset()
+    assert await bench.read(regs.ID_OFFSET) == regs.REGISTERS[0].fields[0].reset
+    info = await bench.read(regs.RING_INFO_OFFSET)
+    assert info == MAX_OBJECTS << regs.RING_INFO_MAX_OBJECTS_SHIFT | regs.RING_BUFFERS
+    first, started = await bench.read(regs.TIME_LO_OFFSET), get_sim_time("ns")
+    await ClockCycles(dut.clk, 50 * CLK_PER_US)
+    second, ended = await bench.read(regs.TIME_LO_OFFSET), get_sim_time("ns")
+    passed = (ended - started) / (CLOCK_NS * CLK_PER_US)
+    assert abs(second - first - passed) <= 1, f"time went on by {second - first}, expected {passed}; {where()}"
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def frames_become_records(dut: HierarchyObject) -> None:
+    """More frames than the ring has buffers, with a memory that answers late and unevenly."""
+    bench = Bench(dut)
+    bench.memory.latency = (1, 60)
+    bench.memory.stall(0.3)
+    await bench.reset()
+    published: list[Expected] = []
+    before = None
+    for number in range(1, 7):
+        rgb = picture(bench.rng, *bench.size)
+        expected = Expected(number, rgb, before, bench.settings)
+        before = expected
+        raw = Raw()
+        raw.frame(lines_of(rgb), BLANKING)
+        raw.blank(2)
+        assert int(dut.irq.value) == 0
+        await bench.play(raw)
+        await bench.settle()
+        published.append(expected)
+        assert int(dut.irq.value) == 1, f"no interrupt after frame {number}; {where()}"
+        await bench.check_ring(published)
+        await bench.write(regs.IRQ_STATUS_OFFSET, regs.IRQ_STATUS_FRAME_DONE_MASK)
+        await ClockCycles(dut.clk, 4)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def configuration_counts_from_the_next_frame(dut: HierarchyObject) -> None:
+    """Registers are written while a frame passes; size, polarity, factor and least area change for the next one."""
+    bench = Bench(dut)
+    await bench.reset()
+    sizes = [(MAX_WIDTH, MAX_HEIGHT), (16, 16), (33, 17), (MAX_WIDTH, 18)]
+    published: list[Expected] = []
+    before = None
+    for number, size in enumerate(sizes, 1):
+        settings, rgb = bench.settings, picture(bench.rng, *size)
+        # One window covers every size here, so the thresholds of a frame of another size serve.
+        expected = Expected(number, rgb, before, settings)
+        published.append(expected)
+        before = expected
+        raw = Raw()
+        raw.frame(lines_of(rgb), BLANKING)
+        raw.blank(2)
+        frame = cocotb.start_soon(bench.play(raw))
+        await ClockCycles(dut.clk, len(raw.data) - size[0] * size[1] // 3)
+        change = replace(
+            settings,
+            factor=bench.rng.randrange(400),
+            min_area=bench.rng.randrange(20),
+            dark_is_one=not settings.dark_is_one,
+            label_zeros=bench.rng.random() < 0.5,
+        )
+        await bench.configure(change, sizes[number % len(sizes)])
+        await frame
+        await bench.settle()
+        await bench.check_ring(published)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def malformed_frames_leave_no_record(dut: HierarchyObject) -> None:
+    """Whole and malformed frames in turn: no record of a torn one, the next one right, thresholds marked as stale."""
+    bench = Bench(dut)
+    await bench.reset()
+    width, height = bench.size = (MAX_WIDTH, 24)
+    await bench.configure(bench.settings, bench.size)
+    raw = Raw()
+    pictures = [picture(bench.rng, width, height) for _ in range(8)]
+    for index, rgb in enumerate(pictures):
+        lines = lines_of(rgb)
+        raw.frame(spoil(bench.rng, lines) if index % 3 == 1 else lines, BLANKING)
+    raw.blank(40)
+    raw.blank(4, sync=True)
+    captured = model(raw, width, height)
+    await bench.play(raw)
+    await bench.settle()
+    published: list[Expected] = []
+    before = None
+    for frame, rgb in zip(captured.frames, pictures, strict=True):
+        if frame.pixels.size != width * height:
+            continue
+        stale = bool(published) and published[-1].number != frame.number - 1
+        expected = Expected(frame.number, rgb, before, bench.settings, stale=stale)
+        before = expected
+        published.append(expected)
+    malformed = await bench.read(regs.FRAMES_MALFORMED_OFFSET)
+    assert malformed == captured.malformed, f"FRAMES_MALFORMED {malformed}, expected {captured.malformed}; {where()}"
+    seen = await bench.read(regs.FRAMES_SEEN_OFFSET)
+    assert seen == len(pictures), f"FRAMES_SEEN {seen}, expected {len(pictures)}; {where()}"
+    lost = await bench.read(regs.FRAMES_UNWRITTEN_OFFSET)
+    assert lost <= len(pictures) - len(published), f"FRAMES_UNWRITTEN {lost}; {where()}"
+    # How many malformed frames were counted when a header was written depends on where their faults lie.
+    for index, expected in list(enumerate(published))[-regs.RING_BUFFERS :]:
+        address = RING_BASE + index % regs.RING_BUFFERS * regs.RING_STRIDE_BYTES
+        header = np.frombuffer(bench.memory.read(address, regs.HEADER_DTYPE.itemsize), regs.HEADER_DTYPE)[0]
+        counted = int(header["frames_malformed"])
+        assert counted <= captured.malformed, f"frames_malformed {counted}; {where()}"
+        expected.values["frames_malformed"] = counted
+    await bench.check_ring(published, unwritten=lost)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def write_errors_cost_one_frame(dut: HierarchyObject) -> None:
+    bench = Bench(dut)
+    await bench.reset()
+    published: list[Expected] = []
+    before = None
+    for number in range(1, 4):
+        rgb = picture(bench.rng, *bench.size)
+        expected = Expected(number, rgb, before, bench.settings)
+        before = expected
+        bench.memory.fails = lambda _, fails=number == 2: fails
+        raw = Raw()
+        raw.frame(lines_of(rgb), BLANKING)
+        raw.blank(2)
+        await bench.play(raw)
+        await bench.settle()
+        if number != 2:
+            published.append(expected)
+    await bench.check_ring(published, unwritten=1)
+    assert await bench.read(regs.IRQ_STATUS_OFFSET) & regs.IRQ_STATUS_AXI_ERROR_MASK
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def altitude_goes_into_the_record(dut: HierarchyObject) -> None:
+    bench = Bench(dut)
+    await bench.reset()
+    await bench.write(regs.LIDAR_CTRL_OFFSET, regs.LIDAR_CTRL_ENABLE_MASK)
+    await ClockCycles(dut.clk, 20 * CLK_PER_US + 300)
+    assert int(dut.lidar_drive_low.value) == 1
+    altitude_mm = bench.rng.randint(100, 300)
+    dut.lidar_in.value = 1
+    await ClockCycles(dut.clk, altitude_mm * CLK_PER_US)
+    dut.lidar_in.value = 0
+    await ClockCycles(dut.clk, 200)
+    assert await bench.read(regs.LIDAR_STATUS_OFFSET) == regs.LIDAR_STATUS_VALID_MASK
+    rgb = picture(bench.rng, *bench.size)
+    raw = Raw()
+    raw.frame(lines_of(rgb), BLANKING)
+    raw.blank(2)
+    await bench.play(raw)
+    await bench.settle()
+    await bench.check_ring([Expected(1, rgb, None, bench.settings, altitude_mm=altitude_mm)])
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def reset_in_mid_frame_forgets_everything(dut: HierarchyObject) -> None:
+    bench = Bench(dut)
+    await bench.reset()
+    for _ in range(3):
+        raw = Raw()
+        raw.frame(lines_of(picture(bench.rng, *bench.size)), BLANKING)
+        camera = cocotb.start_soon(bench.play(raw))
+        await ClockCycles(dut.clk, bench.rng.randrange(len(raw.data)))
+        camera.cancel()
+        await bench.reset()
+        rgb = picture(bench.rng, *bench.size)
+        raw = Raw()
+        raw.frame(lines_of(rgb), BLANKING)
+        raw.blank(2)
+        await bench.play(raw)
+        await bench.settle()
+        await bench.check_ring([Expected(1, rgb, None, bench.settings)])
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def latency_is_as_documented(dut: HierarchyObject) -> None:
+    """From the last pixel at the pins to frame_done: lines of flushing, and the header's way to memory."""
+    bench = Bench(dut)
+    bench.memory.latency = (10, 10)
+    await bench.reset()
+    rgb = np.full((MAX_HEIGHT, MAX_WIDTH, 3), 200, np.uint8)
+    for _ in range(2):
+        raw = Raw()
+        raw.frame(lines_of(rgb), BLANKING)
+        raw.blank(2)
+        await bench.play(raw)
+        while not int(dut.irq.value):
+            await RisingEdge(dut.clk)
+        clocks = (get_sim_time("ns") - bench.last_pixel_ns) / CLOCK_NS
+        dut._log.info("last pixel to interrupt: %.0f clocks, %d pixels a line", clocks, MAX_WIDTH)
+        assert 6 * MAX_WIDTH < clocks < 6 * MAX_WIDTH + 160, f"{clocks} clocks to the interrupt; {where()}"
+        await bench.write(regs.IRQ_STATUS_OFFSET, regs.IRQ_STATUS_FRAME_DONE_MASK)
+        await ClockCycles(dut.clk, 20)
