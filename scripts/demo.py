@@ -7,7 +7,6 @@ Leaves a table on the terminal and, in build/demo, one annotated picture a frame
 and report.html, which holds everything in one file.
 """
 
-import argparse
 import time
 from collections.abc import Callable, Iterator
 from itertools import chain, islice
@@ -20,7 +19,7 @@ from scripts.demo_decode import decode
 from scripts.demo_draw import annotate
 from scripts.demo_results import Row, collect, showings
 from scripts.demo_table import table
-from scripts.errors import UserError, run_main
+from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.frames import FrameSet, open_frames
 from scripts.frames_altitude import altitudes_m
 from scripts.report import Facts, write_report
@@ -95,7 +94,7 @@ def _make_folder(out_dir: Path) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Entry point."""
-    parser = argparse.ArgumentParser(description="Frames through RTL and firmware to MAVLink bytes.")
+    parser = ArgumentParser(description="Frames through RTL and firmware to MAVLink bytes.")
     parser.add_argument(
         "--frames", help="folder of PNG or JPEG files, one such file, or a video (default: a rendered descent)"
     )

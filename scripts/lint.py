@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks of the RTL and of the Python code; the firmware is compiled with warnings as errors wherever it is built."""
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -9,7 +8,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-from scripts.errors import UserError, run_main
+from scripts.errors import ArgumentParser, UserError, run_main
 
 ROOT = Path(__file__).resolve().parent.parent
 WAIVERS = ROOT / "scripts" / "lint" / "verilator.vlt"
@@ -40,7 +39,7 @@ def need(tool: str) -> str:
     Raises:
         UserError: The tool is not on PATH.
     """
-    path = shutil.which(tool)
+    path = shutil.which(tool, path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
     if path is None:
         raise UserError(f"{tool} is not installed: run `make setup`.")
     return path
@@ -96,7 +95,7 @@ def lint_python() -> bool:
 
 def main() -> int:
     """Entry point of `make lint`."""
-    parser = argparse.ArgumentParser(prog="make lint", description=__doc__)
+    parser = ArgumentParser(prog="make lint", description=__doc__)
     parser.parse_args()
     results = [lint_verilog(), lint_python()]
     if not all(results):

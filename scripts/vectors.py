@@ -8,7 +8,6 @@ For each frame build/vectors/CORE/FRAME/ gets, for each stream of the core, a
 is a picture, and metadata.json, which says what everything is.
 """
 
-import argparse
 import json
 import shutil
 from collections.abc import Callable, Iterator
@@ -20,7 +19,7 @@ import numpy as np
 
 from golden.chain import Settings, Stages, run_chain
 from golden.generated.landing_regs import OBJECT_DTYPE
-from scripts.errors import UserError, run_main
+from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.frames import FrameSet, open_frames
 
 DEFAULT_OUT = Path("build/vectors")
@@ -191,7 +190,7 @@ def _write_png(path: Path, array: np.ndarray, bits: int) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Entry point."""
-    parser = argparse.ArgumentParser(description="Golden input and output of one core for recorded frames.")
+    parser = ArgumentParser(description="Golden input and output of one core for recorded frames.")
     parser.add_argument("--core", default="", help=", ".join(CORES))
     parser.add_argument("--frames", help="folder of PNG or JPEG files, one such file, or a video (default: the clip)")
     parser.add_argument("--out", type=Path, default=DEFAULT_OUT, help="folder for the vectors")

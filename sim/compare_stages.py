@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shows frames to landing_core and compares what passes between its stages, and its records, with the golden models."""
 
-import argparse
 import itertools
 import re
 import subprocess
@@ -20,7 +19,7 @@ from golden.generated.landing_regs import (
     RECORD_DTYPE,
 )
 from golden.result_writer import record as golden_record
-from scripts.errors import UserError, run_main
+from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.frames import open_frames
 from sim.cosim.build import ROOT, build_stages
 from sim.cosim.frame_list import FrameList, read_frame_list, write_frame_list
@@ -273,7 +272,7 @@ def check_run(shown: FrameList, out_dir: Path, settings: Settings) -> int:
 
 def main() -> int:
     """Entry point: compare the frames of a folder, a video or the bundled clip."""
-    parser = argparse.ArgumentParser(prog="python -m sim.compare_stages", description=__doc__)
+    parser = ArgumentParser(prog="python -m sim.compare_stages", description=__doc__)
     parser.add_argument("--frames", help="folder of pictures, picture or video; default: the rendered clip")
     parser.add_argument("--limit", type=int, help="take at most this many frames")
     parser.add_argument("--paper", action="store_true", help="the paper's registers instead of the firmware's")

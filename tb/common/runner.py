@@ -5,7 +5,6 @@ Every simulation of the project goes through `run_core`: `make sim`, pytest (`tb
 command that a failing test prints. Outputs are in `build/sim/<core>/<sim>/<config>/`.
 """
 
-import argparse
 import json
 import os
 import shutil
@@ -16,7 +15,7 @@ from pathlib import Path
 from cocotb_tools.check_results import get_results
 from cocotb_tools.runner import VerilatorControlFile, get_runner
 
-from scripts.errors import UserError, run_main
+from scripts.errors import ArgumentParser, UserError, run_main
 from tb.common.cores import ROOT, Core, load_core
 
 SIMULATORS = {"icarus": ("iverilog", "vvp"), "verilator": ("verilator", "make", "c++")}
@@ -186,7 +185,7 @@ def _failures(log: Path) -> str:
 
 def main() -> int:
     """Entry point of the command line."""
-    parser = argparse.ArgumentParser(description="Build a core and run its tests.")
+    parser = ArgumentParser(description="Build a core and run its tests.")
     parser.add_argument("--core", required=True)
     parser.add_argument("--sim", default="verilator", help="icarus or verilator")
     parser.add_argument("--seed", type=int, default=None, help="seed of all random choices")
