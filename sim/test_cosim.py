@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pixels in, UART bytes out: the board's ELF on QEMU with the verilated hardware, and the same firmware on the host."""
 
+import os
 import subprocess
+import time
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +12,10 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from golden.generated.landing_regs import HEADER_FLAGS_THRESHOLDS_MISSING_MASK
 from scripts.errors import UserError
-from sim.cosim.build import build_plugin
+from sim.cosim.build import build_firmware, build_plugin
 from sim.cosim.frame_list import write_frame_list
 from sim.cosim.qemu import find_qemu, qemu_command
-from sim.cosim.result import CosimResult, Uart
+from sim.cosim.result import CosimResult, Uart, read_result
 from sim.cosim.run import run_cosim
 from sim.world.camera import Camera
 from sim.world.clip import demo_clip, images
@@ -127,6 +129,32 @@ def test_the_host_finds_the_same(on_qemu: CosimResult, on_host: CosimResult) -> 
 
     assert without_time(on_host) == without_time(on_qemu)
     assert len(without_time(on_host)) == 5
+
+
+def test_the_firmware_still_receives(tmp_path: Path) -> None:
+    """A TIMESYNC request to UART0 is answered, although the plugin stands before the FIFO register."""
+    for suffix in ("in", "out"):
+        os.mkfifo(tmp_path / f"uart0.{suffix}")
+    request = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+    asked_ns = 123_456_789_012
+    frames = write_frame_list(tmp_path / "frames.tdf", [np.zeros((16, 16, 3), np.uint8)], [1000], repeat=6)
+    arguments = {"frames": frames.path, "out": tmp_path, "frame-clocks": 500_000, "tail-us": 5000}
+    command = qemu_command(find_qemu(), build_firmware(), build_plugin(), arguments, tmp_path)
+    command[command.index(f"file:{tmp_path / 'uart0.bin'}")] = f"pipe:{tmp_path / 'uart0'}"
+    with (tmp_path / "uart0.in").open("r+b", buffering=0) as line:
+        qemu = subprocess.Popen(command)
+        # QEMU drops what comes before the firmware has set up its UART; a frame on the wire means that it has.
+        while qemu.poll() is None and b"\nlast 0" not in _bytes_of(tmp_path / "events.txt"):
+            time.sleep(0.01)
+        line.write(request.timesync_encode(0, asked_ns).pack(request))
+        assert qemu.wait(timeout=300) == 0
+    replies = [message for _, message in messages(read_result(tmp_path, 0).uart0) if message.get_type() == "TIMESYNC"]
+    assert [reply.ts1 for reply in replies] == [asked_ns]
+    assert replies[0].tc1 > 0
+
+
+def _bytes_of(path: Path) -> bytes:
+    return path.read_bytes() if path.exists() else b""
 
 
 def _qemu_that_says(text: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

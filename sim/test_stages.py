@@ -11,7 +11,10 @@ import pytest
 from golden.chain import PAPER, Settings
 from sim.compare_stages import Memory, StageMismatchError, check_run, compare
 from sim.cosim.frame_list import FrameList
+from sim.cosim.result import read_result
 from sim.world.clip import demo_clip, images
+
+CLK_NS = 10
 
 FIRMWARE = Settings()
 ALL_OBJECTS = Settings(min_area=0)
@@ -51,6 +54,11 @@ def test_720p_back_to_back(tmp_path: Path) -> None:
     report = compare(frames, tmp_path, Settings(min_area=1))
     print(report)
     assert report.objects > 512
+    for frame in read_result(tmp_path, 0).frames[:2]:
+        latency_ns = frame.record_ns - frame.last_pixel_ns
+        assert 6 * 1280 * CLK_NS < latency_ns < 80_000, (
+            f"frame {frame.index}: {latency_ns} ns from last pixel to record"
+        )
 
 
 @pytest.mark.full

@@ -251,7 +251,9 @@ async def configuration_counts_from_the_next_frame(dut: HierarchyObject) -> None
         raw.frame(lines_of(rgb), BLANKING)
         raw.blank(2)
         frame = cocotb.start_soon(bench.play(raw))
-        await ClockCycles(dut.clk, len(raw.data) - size[0] * size[1] // 3)
+        # Between the frame's first pixel at the camera and its first pixel in ccl, or a little later.
+        await RisingEdge(dut.vid_de)
+        await ClockCycles(dut.clk, bench.rng.randrange(40, 9 * (size[0] + BLANKING.line)))
         change = replace(
             settings,
             factor=bench.rng.randrange(400),
