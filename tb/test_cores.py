@@ -22,7 +22,7 @@ def runs() -> Iterator[object]:
                 yield pytest.param(name, index, sim, id=f"{name}-{index}-{sim}")
 
 
-@pytest.mark.parametrize(("name", "index", "sim"), runs())
+@pytest.mark.parametrize(("name", "index", "sim"), list(runs()))
 def test_core(name: str, index: int, sim: str) -> None:
     seed = default_seed()
     (result,) = run_core(name, sim, index, seed=seed)
