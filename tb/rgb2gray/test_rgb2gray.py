@@ -28,10 +28,10 @@ async def send(bench: StreamBench, beats: list[Beat]) -> None:
 
 
 def ties() -> list[int]:
-    """Every colour whose weighted sum is a tie of the rounding, or one below."""
+    """Every colour whose weighted sum is a tie of the rounding (no colour is one below a tie)."""
     red, green, blue = np.ogrid[0:256, 0:256, 0:256]
     fraction = (9798 * red + 19235 * green + 3735 * blue).astype(np.int32) & 32767
-    return [int(r) << 16 | int(g) << 8 | int(b) for r, g, b in np.argwhere((fraction == 16384) | (fraction == 16383))]
+    return [int(r) << 16 | int(g) << 8 | int(b) for r, g, b in np.argwhere(fraction == 16384)]
 
 
 def corner_frame() -> np.ndarray:
