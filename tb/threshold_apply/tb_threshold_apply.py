@@ -10,7 +10,7 @@ import numpy as np
 from cocotb.handle import HierarchyObject
 from cocotb.triggers import RisingEdge
 
-from golden.threshold_apply import threshold_apply
+from golden.threshold_apply import threshold_apply, threshold_map
 from golden.threshold_stats import window_count
 from tb.common.compare import check_frame, check_markers
 from tb.common.contract import SentFrame, SizeLimits, sent_frames
@@ -98,6 +98,7 @@ class Bench:
         self.stats = StreamSource(dut, "s_stat_axis", dut.clk, Random(self.rng.getrandbits(64)))
         self.told = StreamMonitor(dut, "s_stat_axis", dut.clk, dut.rst)
         self.levels: list[tuple[int, int]] = []
+        self.sums: list[int | None] = []
         self.video: StreamBench
         self.sent: list[Beat] = []
 
@@ -116,6 +117,7 @@ class Bench:
 
         self.video.source.on_beat = on_beat
         cocotb.start_soon(self._watch_levels())
+        cocotb.start_soon(self._watch_sums())
         return self
 
     def send(self, beats: list[Beat]) -> None:
@@ -147,6 +149,8 @@ class Bench:
         assert len(received) == len(frames), f"{len(received)} frames came, expected {len(frames)}; {where()}"
         for index, (beats, frame, serving) in enumerate(zip(received, frames, served, strict=True)):
             check(beats, frame, serving, f"frame {index}")
+            sums, self.sums = self.sums[: len(beats)], self.sums[len(beats) :]
+            check_sums(sums, frame, serving, f"frame {index}")
         levels = [(int(one.nodes is None), int(one.stale)) for one in served]
         assert self.levels == levels, f"(missing, stale) {self.levels}, expected {levels}; {where()}"
         pulses = self.video.errors.count
@@ -188,6 +192,29 @@ class Bench:
             last = now
             valid, ready = int(dut.m_axis_tvalid.value), int(dut.m_axis_tready.value)
             started = bool(valid and ready and int(dut.m_axis_tuser.value))
+
+    async def _watch_sums(self) -> None:
+        """Record the interpolated sum of each pixel as it goes into the comparison; None where it is undefined."""
+        dut, edge = self.dut, RisingEdge(self.dut.clk)
+        while True:
+            await edge
+            if int(dut.rst.value):
+                self.sums.clear()
+            elif int(dut.out_valid.value) and int(dut.advance.value):
+                value = dut.interpolate.sum9_reg.value
+                self.sums.append(int(value) if value.is_resolvable else None)
+
+
+def check_sums(sums: list[int | None], frame: SentFrame, serving: Served, name: str) -> None:
+    """Assert that the threshold inside the core is exact to its last bit, which the output alone would seldom show."""
+    if serving.nodes is None:
+        return
+    wanted = threshold_map(serving.nodes, frame.width, frame.height, WINDOW_LOG2).ravel().tolist()
+    for at, got in enumerate(sums):
+        assert got == wanted[at], (
+            f"{name} ({frame.width}x{frame.height}): threshold at x {at % frame.width}, y {at // frame.width}: "
+            f"expected {wanted[at]}, got {got} in units of 2**-{10 + 2 * WINDOW_LOG2}; {where()}"
+        )
 
 
 def check(beats: list[Taken], frame: SentFrame, serving: Served, name: str) -> None:

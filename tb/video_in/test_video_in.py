@@ -211,6 +211,7 @@ async def sizes_never_mix(dut: HierarchyObject) -> None:
     """While the configuration flips between 5x6 and 6x5 at any time, a frame of 5x5 or 6x6 never passes."""
     bench = await fresh_bench(dut, 5, 6)
     flips = cocotb.start_soon(flip(bench, [(5, 6), (6, 5)]))
+    held = cocotb.start_soon(word_stands_still(dut))
     raw = Raw()
     for _ in range(60):
         side = bench.rng.choice([5, 6])
@@ -219,8 +220,19 @@ async def sizes_never_mix(dut: HierarchyObject) -> None:
     await bench.play(raw)
     await bench.settle()
     flips.cancel()
+    held.cancel()
     counts = (bench.seen.count, bench.malformed.count)
     assert counts == (60, 60), f"(seen, malformed) {counts}, expected (60, 60); {where()}"
+
+
+async def word_stands_still(dut: HierarchyObject) -> None:
+    """Assert that the word under way stands still until acknowledged: simulated bits have no skew that would show it."""
+    sync, last, under_way = dut.cfg_sync, None, False
+    while True:
+        await RisingEdge(dut.clk)
+        now = str(sync.hold_reg.value)
+        assert not under_way or now == last, f"the word changed from {last} to {now} under way; {where()}"
+        last, under_way = now, int(sync.request_reg.value) != int(sync.acknowledge_in_src.value)
 
 
 async def flip(bench: Bench, sizes: list[tuple[int, int]]) -> None:
