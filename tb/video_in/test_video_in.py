@@ -226,7 +226,7 @@ async def sizes_never_mix(dut: HierarchyObject) -> None:
 
 
 async def word_stands_still(dut: HierarchyObject) -> None:
-    """Assert that the word under way stands still until acknowledged: simulated bits have no skew that would show it."""
+    """Assert that the word under way stands still until acknowledged: simulated bits have no skew to show it."""
     sync, last, under_way = dut.cfg_sync, None, False
     while True:
         await RisingEdge(dut.clk)
