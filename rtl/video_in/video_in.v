@@ -13,7 +13,7 @@
 // also while disabled. cfg_* are sampled with the first pixel of each frame and take up to 8 cycles of each clock to
 // arrive; a size that is 0 or greater than MAX_* makes each frame malformed.
 // pix_clk may stop and come back at any time: clk goes on, and a cut frame is found malformed when lines come again.
-// Limits: hsync is not needed; pix_clk is at most 4 times as fast as clk; rst comes from a flip-flop.
+// Limits: hsync is not needed; pix_clk is at most 3 times as fast as clk; rst comes from a flip-flop.
 `default_nettype none
 
 module video_in #(
