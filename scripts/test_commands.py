@@ -14,11 +14,12 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def run(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run a command from the project root."""
+    """Run a command from the project root, as if no `make` were running already."""
+    outside = {name: value for name, value in os.environ.items() if not name.startswith("MAKE") and name != "MFLAGS"}
     return subprocess.run(
         command,
         cwd=ROOT,
-        env={**os.environ, "TOUCHDOWN_SKIP_APT": "1", **environment},
+        env={**outside, "TOUCHDOWN_SKIP_APT": "1", **environment},
         capture_output=True,
         text=True,
         check=False,

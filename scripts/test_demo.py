@@ -345,7 +345,7 @@ def test_command_line(clip: FrameSet, tmp_path: Path, monkeypatch: pytest.Monkey
     assert (len(frames.names), heights, firmware, out_dir) == (2, [3.0, 3.0], "host", tmp_path)
     with pytest.raises(UserError, match="does not exist"):
         main(["--frames", str(tmp_path / "none")])
-    with pytest.raises(SystemExit):
+    with pytest.raises(UserError, match=r"other.*qemu.*host"):
         main(["--firmware", "other"])
     assert len(clip.names) == CLIP_FRAMES
 
