@@ -140,18 +140,23 @@ module landing_core #(
     wire        lidar_too_long;
     wire        lidar_too_short;
     reg         lidar_valid_reg;
-    wire        lidar_fault = lidar_valid_reg && !lidar_valid;
+    reg         lidar_broken_reg;
+    wire        lidar_broken = lidar_timeout || lidar_too_long;
+    // A sensor that never worked is a fault too; one that is switched off is none.
+    wire        lidar_fault = lidar_enable && ((lidar_valid_reg && !lidar_valid) || (lidar_broken && !lidar_broken_reg));
 
     always @(posedge clk) begin
         if (frame_seen) frames_seen_reg <= frames_seen_reg + 32'd1;
         if (frame_malformed) frames_malformed_reg <= frames_malformed_reg + 32'd1;
         if (frame_overflow) frames_overflow_reg <= frames_overflow_reg + 32'd1;
         lidar_valid_reg <= lidar_valid;
+        lidar_broken_reg <= lidar_broken;
         if (rst) begin
             frames_seen_reg <= 32'd0;
             frames_malformed_reg <= 32'd0;
             frames_overflow_reg <= 32'd0;
             lidar_valid_reg <= 1'b0;
+            lidar_broken_reg <= 1'b0;
         end
     end
 

@@ -32,7 +32,7 @@ RING_BASE = 0x1F30_0000
 STREAMS = ("rgb", "gray", "smooth", "checked", "stats", "binary", "eroded", "median", "dilated", "objects")
 # Lines as far apart as 720p60 has them in proportion; enough between frames to flush the borders.
 BLANKING = Blanking(line=14, front=150, sync=60, back=250)
-LIMIT_US = 3000  # of simulated time; no test comes near
+LIMIT_US = 5000  # of simulated time; no test comes near
 
 
 class Bench:
@@ -356,6 +356,44 @@ async def altitude_goes_into_the_record(dut: HierarchyObject) -> None:
         await bench.play(raw)
         await bench.settle()
     await bench.check_ring(published)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def lidar_faults_interrupt(dut: HierarchyObject) -> None:
+    """A sensor that says nothing is a fault, one that is switched off is none, one that gives only glitches is."""
+    bench = Bench(dut)
+    await bench.reset()
+    fault = regs.IRQ_STATUS_LIDAR_FAULT_MASK
+    await bench.write(regs.IRQ_ENABLE_OFFSET, fault)
+    await bench.write(regs.LIDAR_CTRL_OFFSET, regs.LIDAR_CTRL_ENABLE_MASK)
+
+    async def pulse(length_us: int, gap_us: int) -> None:
+        dut.lidar_in.value = 1
+        await ClockCycles(dut.clk, length_us * CLK_PER_US)
+        dut.lidar_in.value = 0
+        await ClockCycles(dut.clk, gap_us * CLK_PER_US)
+
+    async def expect(status: int, what: str) -> None:
+        got = await bench.read(regs.IRQ_STATUS_OFFSET)
+        assert got == status, f"{what}: expected IRQ_STATUS {status:#x}, got {got:#x}; {where()}"
+        assert int(dut.irq.value) == (status != 0), f"{what}: irq is {dut.irq.value}; {where()}"
+        await bench.write(regs.IRQ_STATUS_OFFSET, status)
+
+    await ClockCycles(dut.clk, 17_900 * CLK_PER_US)
+    await expect(0, "before the time-out")
+    await ClockCycles(dut.clk, 200 * CLK_PER_US)
+    await expect(fault, "after the time-out")
+    await ClockCycles(dut.clk, 1_000 * CLK_PER_US)
+    await pulse(300, 100)
+    assert await bench.read(regs.LIDAR_STATUS_OFFSET) == regs.LIDAR_STATUS_VALID_MASK
+    await expect(0, "after a reading")
+    await bench.write(regs.LIDAR_CTRL_OFFSET, 0)
+    await expect(0, "after it was switched off")
+    await bench.write(regs.LIDAR_CTRL_OFFSET, regs.LIDAR_CTRL_ENABLE_MASK)
+    await pulse(300, 100)
+    for _ in range(7):
+        await pulse(40, 9_000)
+    await expect(fault, "after 63 ms of glitches")
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
