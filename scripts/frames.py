@@ -122,6 +122,13 @@ def _video(path: Path, limit: int | None) -> FrameSet:
     )
 
 
+def _is_whole(data: bytes) -> bool:
+    """False for an empty file and for a JPEG without its end, of which OpenCV would show the part that is there."""
+    if data.startswith(b"\xff\xd8"):
+        return data.rfind(b"\xff\xd9") > data.rfind(b"\xff\xda")
+    return bool(data)
+
+
 def read_picture(path: Path) -> np.ndarray:
     """One picture as (720, 1280, 3) uint8 RGB.
 
@@ -129,10 +136,10 @@ def read_picture(path: Path) -> np.ndarray:
         UserError: it cannot be read, or has the wrong size.
     """
     try:
-        data = np.frombuffer(path.read_bytes(), np.uint8)
+        data = path.read_bytes()
     except OSError as error:
         raise UserError(f"{path} cannot be read: {error.strerror}; check the file.") from error
-    picture = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR) if _is_whole(data) else None
     if picture is None:
         raise UserError(f"{path} cannot be decoded; replace it by a whole PNG or JPEG file, or take it out.")
     return _as_rgb(picture, str(path))

@@ -114,6 +114,18 @@ def test_undecodable_picture(tmp_path: Path, content: bytes) -> None:
     assert "bad.png cannot be decoded" in sentence(caught)
 
 
+@pytest.mark.parametrize("kept", [0.3, 0.7, 0.999])
+def test_cut_off_jpeg(tmp_path: Path, kept: float) -> None:
+    """OpenCV would show the part that is there, and gray below."""
+    picture(tmp_path / "whole.jpg")
+    whole = (tmp_path / "whole.jpg").read_bytes()
+    assert len(open_frames(str(tmp_path)).names) == 1
+    (tmp_path / "cut.jpg").write_bytes(whole[: int(len(whole) * kept)])
+    with pytest.raises(UserError) as caught:
+        open_frames(str(tmp_path))
+    assert "cut.jpg cannot be decoded" in sentence(caught)
+
+
 def test_file_that_is_no_video(tmp_path: Path) -> None:
     (tmp_path / "clip.mp4").write_bytes(b"not a video")
     with pytest.raises(UserError) as caught:
