@@ -20,6 +20,7 @@ from tb.common.cores import ROOT, Core, load_core
 
 SIMULATORS = {"icarus": ("iverilog", "vvp"), "verilator": ("verilator", "make", "c++")}
 DEFAULT_SEED = 20260101
+OUTPUT = ROOT / "build/sim"
 LINT_WAIVERS = ROOT / "scripts/lint/verilator.vlt"
 
 
@@ -86,10 +87,18 @@ def run_core(
 
 
 def run_config(
-    core: Core, sim: str, index: int, *, seed: int, waves: bool = False, testcase: str | None = None
+    core: Core,
+    sim: str,
+    index: int,
+    *,
+    seed: int,
+    waves: bool = False,
+    testcase: str | None = None,
+    output: Path = OUTPUT,
+    build_args: tuple[str, ...] = (),
 ) -> Result:
-    """Build and run one config of a core that was loaded."""
-    folder = ROOT / "build/sim" / core.name / sim / (core.config_name(index) + ("-waves" if waves else ""))
+    """Build and run one config of a core that was loaded, with more options of the simulator's compiler if wanted."""
+    folder = output / core.name / sim / (core.config_name(index) + ("-waves" if waves else ""))
     folder.mkdir(parents=True, exist_ok=True)
     build_log, test_log, results = folder / "build.log", folder / "test.log", folder / "results.xml"
     replay = replay_command(core.name, sim, seed)
@@ -100,7 +109,7 @@ def run_config(
     runner = get_runner(sim)
     runner.log.setLevel("WARNING")
     try:
-        _build(runner, core, sim, index, waves=waves, log=build_log)
+        _build(runner, core, sim, index, waves=waves, log=build_log, more=build_args)
     except (RuntimeError, SystemExit):
         return Result(False, f"build failed:\n{_tail(build_log)}", replay, build_log)
     warnings = [line for line in build_log.read_text().splitlines() if sim == "icarus" and "warning" in line]
@@ -141,7 +150,7 @@ def run_config(
     return Result(True, f"{count} tests passed", replay, test_log)
 
 
-def _build(runner: object, core: Core, sim: str, index: int, *, waves: bool, log: Path) -> None:
+def _build(runner: object, core: Core, sim: str, index: int, *, waves: bool, log: Path, more: tuple[str, ...]) -> None:
     sources: list[object] = [str(source) for source in core.sources]
     if sim == "icarus":
         # The module with which cocotb makes Icarus dump waves is SystemVerilog.
@@ -156,7 +165,7 @@ def _build(runner: object, core: Core, sim: str, index: int, *, waves: bool, log
         parameters=core.configs[index],
         hdl_toplevel=core.toplevel,
         build_dir=log.parent,
-        build_args=arguments,
+        build_args=[*arguments, *more],
         always=True,
         timescale=("1ns", "1ps"),
         waves=waves,
