@@ -59,6 +59,10 @@ vectors: setup ## Golden input and output of one core from recorded frames: CORE
 lint: setup ## verilator -Wall, Icarus -Wall and verible on the RTL; ruff on Python; warnings as errors on C
 	@$(PYTHON) -m scripts.lint
 
+.PHONY: formal
+formal: setup ## Prove the cores and see each planted fault found: [CORE=name]
+	@$(PYTHON) -m formal.run --faults $(if $(CORE),--core "$(CORE)")
+
 .PHONY: regmap
 regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl
 	@$(PYTHON) -m scripts.regmap
