@@ -88,10 +88,10 @@ async def latency(dut: HierarchyObject) -> None:
 async def reset_drops_what_is_inside(dut: HierarchyObject, stall: str) -> None:
     rng = Random(getrandbits(64))
     bench = await start(dut, rng, stall)
-    for _ in range(5):
+    for _ in range(10):
         bench.source.send_beats(frame_beats(random_frame(rng, 20, 10, 24)))
         await bench.cycles(rng.randint(1, 100))
-        await bench.reset()
+        await bench.reset(rng.randint(1, 3))
         bench.sink.taken.clear()
         frame = random_frame(rng, 5, 3, 24)
         await send(bench, frame_beats(frame))
