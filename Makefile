@@ -44,8 +44,16 @@ test: setup ## Everything that fits into 25 minutes on 2 cores
 	@$(PYTHON) -m pytest -n $(JOBS) -m "not full"
 
 .PHONY: test-full
-test-full: setup ## Everything
-	@$(PYTHON) -m pytest -n $(JOBS)
+test-full: setup ## Everything, and the table of what each core passed
+	@status=0; $(PYTHON) -m pytest -n $(JOBS) || status=1; $(PYTHON) -m scripts.signoff || status=1; exit $$status
+
+.PHONY: signoff
+signoff: setup ## The table of what each core passed, from the results of the last runs
+	@$(PYTHON) -m scripts.signoff
+
+.PHONY: synth
+synth: setup ## Area of one core or all, against constraints/budgets.toml (yosys, xc7): [CORE=name]
+	@$(PYTHON) -m scripts.synth $(if $(CORE),--core "$(CORE)")
 
 .PHONY: sim
 sim: setup ## Test one core in one simulator: CORE=name [SIM=icarus|verilator] [SEED=n] [WAVES=1]
@@ -62,6 +70,14 @@ lint: setup ## verilator -Wall, Icarus -Wall and verible on the RTL; ruff on Pyt
 .PHONY: formal
 formal: setup ## Prove the cores and see each planted fault found: [CORE=name]
 	@$(PYTHON) -m formal.run --faults $(if $(CORE),--core "$(CORE)")
+
+.PHONY: mutation
+mutation: setup ## Plant faults into the cores and count how many their own tests find: [CORE=name]
+	@$(PYTHON) -m tb.mutation.run --jobs $(JOBS) $(if $(CORE),--core "$(CORE)")
+
+.PHONY: coverage
+coverage: setup ## Lines, branches and toggles that the tests of the cores reach, and which they miss: [CORE=name]
+	@$(PYTHON) -m tb.coverage.run $(if $(CORE),--core "$(CORE)")
 
 .PHONY: regmap
 regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl

@@ -14,15 +14,17 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
+from typing import Any
 
 from scripts.errors import ArgumentParser, UserError, run_main
+from scripts.signoff import FOLDER, leave
 from tb.common.cores import ROOT, Core, core_names, load_core
 from tb.common.runner import check_simulator
 from tb.mutation.plan import DEFAULT_SEED, HERE, Fault, chosen, plan
 from tb.mutation.simulate import Outcome, simulate
 
 GOAL = 0.95
-REPORTS = ROOT / "build/signoff/mutation"
+REPORTS = FOLDER / "mutation"
 WORK = ROOT / "build/mutation"
 KILLED = ("killed", "hang")
 
@@ -89,15 +91,13 @@ def check_unchanged(core: Core, config: int) -> None:
         raise UserError(f"the tests of {core.name}, config {config}, fail without a mutant: {outcome.reason}.")
 
 
-def report(core: Core, entries: list[Entry], complete: bool) -> dict[str, object]:
-    """Return the figures of a core in the form of the sign-off table."""
+def report(core: Core, entries: list[Entry], complete: bool) -> dict[str, Any]:
+    """Return the figures of a core for the sign-off table."""
     counts = {name: sum(entry.verdict == name for entry in entries) for name in ("killed", "hang", "equivalent")}
     killed = counts["killed"] + counts["hang"]
     real = len(entries) - counts["equivalent"]
     broken = [entry for entry in entries if entry.verdict == "broken"]
     return {
-        "core": core.name,
-        "check": "mutation",
         "passed": complete and not broken and real > 0 and killed >= GOAL * real,
         "figure": f"{killed} of {real} mutants killed, {counts['equivalent']} equivalent",
         "detail": {
@@ -130,14 +130,13 @@ def kept(core: Core, path: Path) -> dict[tuple[str, str, str], dict[str, object]
     }
 
 
-def run(core: Core, seed: int, jobs: int, resume: bool) -> dict[str, object]:
+def run(core: Core, seed: int, jobs: int, resume: bool) -> dict[str, Any]:
     """Try all mutants of a core, show each and write the report after each."""
     count, configs = plan(core.name)
     faults = list(chosen(core, count, seed))
     listed = equivalents(core.name)
     check_equivalents(core.name, listed, faults)
     path = REPORTS / f"{core.name}.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
     earlier = kept(core, path) if resume else {}
     entries: dict[tuple[str, str, str], Entry] = {}
     open_faults = []
@@ -158,10 +157,10 @@ def run(core: Core, seed: int, jobs: int, resume: bool) -> dict[str, object]:
             print(show(core, entry), flush=True)
             save(complete=len(entries) == len(faults))
 
-    def save(complete: bool) -> dict[str, object]:
+    def save(complete: bool) -> dict[str, Any]:
         ordered = [entries[fault.key] for fault in faults if fault.key in entries]
         result = report(core, ordered, complete)
-        path.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        leave(core.name, "mutation", result["passed"], result["figure"], result["detail"])
         return result
 
     with ThreadPoolExecutor(jobs) as pool:
