@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 from scripts.errors import ArgumentParser, UserError, run_main
+from scripts.signoff import leave
 
 ROOT = Path(__file__).resolve().parent.parent
 WAIVERS = ROOT / "scripts" / "lint" / "verilator.vlt"
@@ -71,18 +72,22 @@ def include_flags() -> list[str]:
 
 
 def lint_verilog() -> bool:
-    """Each core with the defaults of its parameters in verilator and Icarus; each file in verible."""
+    """Each core with the defaults of its parameters in verilator, Icarus and yosys; each file in verible."""
     verilator = [need("verilator"), "--lint-only", "--quiet", "-Wall", "--language", "1364-2005"]
     iverilog, verible = need("iverilog"), need("verible-verilog-lint")
-    clean = True
-    for core, (top, sources) in cores().items():
-        flags = [*include_flags(), "--top-module", top, str(WAIVERS), *sources]
-        clean &= run(f"verilator {core}", [*verilator, *flags])
-        flags = [*include_flags(), "-s", top, "-o", os.devnull, *sources]
-        clean &= run(f"icarus {core}", [iverilog, "-g2005", "-Wall", *flags])
-        clean &= run(f"yosys {core}", [sys.executable, "-c", YOSYS, yosys_script(top, sources)], silent_is_clean=False)
     files = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("rtl/**/*.v"))
-    clean &= run("verible", [verible, f"--rules_config={VERIBLE_RULES}", *files])
+    styled = run("verible", [verible, f"--rules_config={VERIBLE_RULES}", *files])
+    clean = styled
+    for core, (top, sources) in cores().items():
+        found = {"verible": styled}
+        flags = [*include_flags(), "--top-module", top, str(WAIVERS), *sources]
+        found["verilator"] = run(f"verilator {core}", [*verilator, *flags])
+        flags = [*include_flags(), "-s", top, "-o", os.devnull, *sources]
+        found["icarus"] = run(f"icarus {core}", [iverilog, "-g2005", "-Wall", *flags])
+        script = yosys_script(top, sources)
+        found["yosys"] = run(f"yosys {core}", [sys.executable, "-c", YOSYS, script], silent_is_clean=False)
+        leave(core, "lint", all(found.values()), f"{sum(found.values())} of {len(found)} tools clean", found)
+        clean &= all(found.values())
     return clean
 
 

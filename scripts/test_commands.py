@@ -28,7 +28,7 @@ def run(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
 
 def test_help_names_every_command() -> None:
     output = run("make", "help").stdout
-    for command in ("demo", "test", "test-full", "sim", "vectors", "lint", "doctor"):
+    for command in ("demo", "test", "test-full", "sim", "vectors", "lint", "synth", "signoff", "doctor"):
         assert f"make {command} " in output
 
 

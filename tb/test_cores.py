@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from scripts.errors import UserError
+from scripts.signoff import combine, leave_part
 from tb.common.cores import core_names, load_core
 from tb.common.runner import SIMULATORS, default_seed, run_core
 
@@ -26,5 +27,9 @@ def runs() -> Iterator[object]:
 def test_core(name: str, index: int, sim: str) -> None:
     seed = default_seed()
     (result,) = run_core(name, sim, index, seed=seed)
+    leave_part(name, "matrix", f"{index}-{sim}", result.passed, result.tests)
+    builds = len(load_core(name).configs)
+    expected = [f"{other}-{simulator}" for other in range(builds) for simulator in SIMULATORS]
+    combine(name, "matrix", expected, f"{{count}} tests in {builds} builds x {len(SIMULATORS)} simulators")
     print(f"seed {seed}: {result.summary}")
     assert result.passed, f"{result.summary}\nlog: {result.log}\nreplay: {result.replay}"

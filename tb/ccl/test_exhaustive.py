@@ -5,16 +5,26 @@ The bench also checks what docs/cores/ccl.md promises of stalls and latency; see
 """
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
 import pytest
 
+from scripts.signoff import combine, leave_part
 from tb.common.cores import ROOT, load_core
 from tb.common.runner import check_simulator
 
 GAPS = [(0, 0), (30, 0), (0, 60), (25, 40)]
 """Idle input and stalled output cycles, per cent each."""
+NARROW = [(1, 12), (12, 1), (2, 8), (8, 2), (3, 5), (5, 3)]
+WHOLE = [(1280, 720), (1279, 719)]
+EXHAUSTIVE = [
+    *(f"--idle {idle} --stall {stall} all 4 4" for idle, stall in GAPS),
+    *(f"all {width} {height}" for width, height in NARROW),
+    "all 5 5",
+]
+"""Runs of every image of a size: what sign-off wants to see."""
 
 
 def build(width: int, height: int) -> Path:
@@ -38,7 +48,12 @@ def run(bench: Path, *arguments: object) -> None:
     """Run the bench; its last line says what it did, a failure shows the image and the command."""
     command = [str(bench), *map(str, arguments)]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
-    print(f"{' '.join(command[1:])}: {result.stdout.strip()}")
+    name = " ".join(command[1:])
+    print(f"{name}: {result.stdout.strip()}")
+    if name in EXHAUSTIVE:
+        frames = re.match(r"ok: (\d+) frames", result.stdout)
+        leave_part("ccl", "exhaustive", name, result.returncode == 0, int(frames[1]) if frames else 0)
+        combine("ccl", "exhaustive", EXHAUSTIVE, "{count} frames: every image of 8 sizes up to 5x5 and 12x1")
     assert result.returncode == 0, f"{result.stderr}replay: {' '.join(command)}"
 
 
@@ -59,7 +74,7 @@ def test_every_4x4_image(small: Path, idle: int, stall: int) -> None:
     run(small, "--idle", idle, "--stall", stall, "all", 4, 4)
 
 
-@pytest.mark.parametrize("size", [(1, 12), (12, 1), (2, 8), (8, 2), (3, 5), (5, 3)])
+@pytest.mark.parametrize("size", NARROW)
 def test_every_narrow_image(small: Path, size: tuple[int, int]) -> None:
     run(small, "all", *size)
 
@@ -75,7 +90,7 @@ def test_random_images_through_the_full_size_core(large: Path, idle: int, stall:
     run(large, "--idle", idle, "--stall", stall, "random", 5000, 1, 60)
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (1279, 719)])
+@pytest.mark.parametrize("size", WHOLE)
 def test_hard_whole_frames(large: Path, size: tuple[int, int]) -> None:
     run(large, "structured", *size)
 

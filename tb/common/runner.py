@@ -26,12 +26,13 @@ LINT_WAIVERS = ROOT / "scripts/lint/verilator.vlt"
 
 @dataclass(frozen=True)
 class Result:
-    """Outcome of one build and run; `replay` is the command that repeats it."""
+    """Outcome of one build and run of so many tests; `replay` is the command that repeats it."""
 
     passed: bool
     summary: str
     replay: str
     log: Path
+    tests: int = 0
 
 
 def replay_command(core: str, sim: str, seed: int) -> str:
@@ -146,8 +147,8 @@ def run_config(
     if count == 0:
         return Result(False, f"no test matches '{testcase}'", replay, test_log)
     if failures:
-        return Result(False, f"{failures} of {count} tests failed:\n{_failures(test_log)}", replay, test_log)
-    return Result(True, f"{count} tests passed", replay, test_log)
+        return Result(False, f"{failures} of {count} tests failed:\n{_failures(test_log)}", replay, test_log, count)
+    return Result(True, f"{count} tests passed", replay, test_log, count)
 
 
 def _build(runner: object, core: Core, sim: str, index: int, *, waves: bool, log: Path, more: tuple[str, ...]) -> None:
