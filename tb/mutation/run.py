@@ -191,11 +191,12 @@ def main() -> int:
     parser.add_argument("--resume", action="store_true", help="keep what an earlier run killed, if the RTL is the same")
     arguments = parser.parse_args()
     check_simulator("icarus")
-    reports = []
+    failed = []
     for name in [arguments.core] if arguments.core else core_names():
-        reports.append(run(load_core(name), arguments.seed, arguments.jobs, arguments.resume))
-        print(f"{name}: {reports[-1]['figure']}", flush=True)
-    failed = [str(one["core"]) for one in reports if not one["passed"]]
+        result = run(load_core(name), arguments.seed, arguments.jobs, arguments.resume)
+        print(f"{name}: {result['figure']}", flush=True)
+        if not result["passed"]:
+            failed.append(name)
     if failed:
         raise UserError(
             f"too many mutants survive in {', '.join(failed)}; add tests, or list equivalents with a reason."

@@ -110,7 +110,7 @@ class Bench:
         self.pause_clock: Iterator[bool] = stalls(self.rng, 0)
         dut.rst.value = 1
         dut.cfg_enable.value = 1
-        dut.time_us.value = 0
+        dut.time_us.value = getrandbits(64)
         dut.vid_hsync.value = 0
         dut.cfg_width.value = 0
         dut.cfg_height.value = 0
@@ -194,7 +194,7 @@ class Bench:
                     self.first_beat_ns = get_sim_time("ns")
             shown = start and str(dut.m_axis_tready.value) == "0"
             now = int(dut.time_us.value)
-            dut.time_us.value = now + 1
+            dut.time_us.value = (now + 1) % (1 << 64)
 
 
 def check(bench: Bench, expected: Captured) -> None:
