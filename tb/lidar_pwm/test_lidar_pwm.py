@@ -342,6 +342,65 @@ async def _released_us(bench: Bench) -> float:
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def high_from_the_start(dut: HierarchyObject) -> None:
+    """A pin that never falls after enable is too long: the pin is released, and pulled low again."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.start(pin=1)
+    await bench.enable()
+    await bench.settle()
+    released = cocotb.start_soon(_released_us(bench))
+    await bench.wait_us(LIMITS.max_mm + LIMITS.release_us + 5)
+    bench.expect("too_long", 0, "high from the start")
+    assert released.done(), f"the pin was not released for {LIMITS.release_us} us; {where()}"
+    times = released.result()
+    assert abs(times - LIMITS.release_us) <= 3, f"released for {times} us, expected {LIMITS.release_us}; {where()}"
+    await disable(bench)
+
+
+async def disable(bench: Bench) -> None:
+    """Disable, and assert that no status is left."""
+    bench.dut.enable.value = 0
+    await bench.wait_us(2)
+    bench.expect("ok", 0, "disabled")
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def disabling_clears_the_status(dut: HierarchyObject) -> None:
+    """A timeout and a short pulse are forgotten when measuring is switched off."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.start()
+    await bench.enable()
+    await bench.wait_us(FILTER_US + LIMITS.start_timeout_us + 5)
+    bench.expect("timeout", 0, "no pulse")
+    await disable(bench)
+    await bench.enable()
+    await bench.settle()
+    await bench.pulse(LIMITS.min_mm - 1, gap_us=2 * FILTER_US)
+    await bench.settle()
+    bench.expect("too_short", 0, "short pulse")
+    await disable(bench)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def no_reading(dut: HierarchyObject) -> None:
+    """Before the first reading, and again after a reset, the age stays all ones and the distance 0."""
+    bench = Bench(dut, Random(getrandbits(32)))
+    await bench.start()
+    await bench.enable()
+    for _ in range(2):
+        await bench.settle()
+        bench.expect("ok", 0, "no reading")
+        got = (int(dut.age_us.value), int(dut.distance_mm.value))
+        assert got == (NEVER, 0), f"(age_us, distance_mm) without a reading: {got}; {where()}"
+        await bench.pulse(100, gap_us=FILTER_US)
+        await bench.settle()
+        bench.expect("ok", 1, "a reading")
+        dut.rst.value = 1
+        await bench.wait_us(1)
+        dut.rst.value = 0
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def reading_grows_old(dut: HierarchyObject) -> None:
     """The age counts microseconds; valid falls as the age passes the limit (the watcher checks the very clock)."""
     bench = Bench(dut, Random(getrandbits(32)))

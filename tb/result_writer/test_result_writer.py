@@ -20,7 +20,7 @@ from tb.common.stream import CLOCK_NS, Beat, PulseCounter, StreamMonitor, Stream
 
 MAX_OBJECTS = parameter("MAX_OBJECTS", 256)
 MAX_OUTSTANDING = parameter("MAX_OUTSTANDING", 8)
-RING_BASE = 0x1F30_0000
+NUMBER_STEP = 0x9E37_79B1  # from frame to frame every bit of the number changes; odd, so no number comes twice
 FRAME_NUMBER_OFFSET = 56
 LIMIT_US = 2000  # of simulated time; no test comes near
 HEADER_LEN = 6  # awlen of the 56 bytes before it
@@ -55,18 +55,14 @@ WEATHER = {
 }
 
 # Where a memory write fails: by the offset in the buffer and the data.
-PLACES: dict[str, Callable[[Burst], bool]] = {
-    "frame number 0": lambda burst: _offset(burst) == FRAME_NUMBER_OFFSET and not any(burst.data),
-    "first object": lambda burst: _offset(burst) == 64,
-    "last object": lambda burst: _offset(burst) == 64 + 2 * 64,
-    "header": lambda burst: _offset(burst) == 0,
-    "frame number": lambda burst: _offset(burst) == FRAME_NUMBER_OFFSET and any(burst.data),
-    "all": lambda _: True,
+PLACES: dict[str, Callable[[int, Burst], bool]] = {
+    "frame number 0": lambda offset, burst: offset == FRAME_NUMBER_OFFSET and not any(burst.data),
+    "first object": lambda offset, _: offset == 64,
+    "last object": lambda offset, _: offset == 64 + 2 * 64,
+    "header": lambda offset, _: offset == 0,
+    "frame number": lambda offset, burst: offset == FRAME_NUMBER_OFFSET and any(burst.data),
+    "all": lambda *_: True,
 }
-
-
-def _offset(burst: Burst) -> int:
-    return (burst.address - RING_BASE) % RING_STRIDE_BYTES
 
 
 def random_objects(rng: Random, count: int) -> np.ndarray:
@@ -77,7 +73,7 @@ def random_objects(rng: Random, count: int) -> np.ndarray:
 def random_frame(rng: Random, number: int, **options: bool) -> Frame:
     """Return a frame with random values and none, few, all that fit, or more objects than fit."""
     values = {member: rng.getrandbits(bits) for _, bits, member in ALL_PORTS}
-    values["frame_number"] = number
+    values["frame_number"] = number * NUMBER_STEP % (1 << 32)
     counts = [0, 1, rng.randint(2, 9), MAX_OBJECTS if MAX_OBJECTS < 20 else 12, MAX_OBJECTS + rng.randint(1, 3)]
     weights = [2, 2, 5, 3, 3 if MAX_OBJECTS < 20 else 0]
     count = rng.choices(counts, weights)[0]
@@ -92,7 +88,8 @@ class Bench:
     def __init__(self, dut: HierarchyObject, rng: Random) -> None:
         self.dut, self.rng = dut, rng
         dut.rst.value = 1
-        dut.ring_base.value = RING_BASE | rng.getrandbits(12)
+        self.base = rng.randrange(0, (1 << 32) - RING_BUFFERS * RING_STRIDE_BYTES, 4096)
+        dut.ring_base.value = self.base | rng.getrandbits(12)
         cocotb.start_soon(Clock(dut.clk, CLOCK_NS, unit="ns").start())
         self.source = StreamSource(dut, "s_axis", dut.clk, rng)
         self.source.on_beat = self._on_beat
@@ -118,6 +115,10 @@ class Bench:
             await RisingEdge(self.dut.clk)
         self.dut.rst.value = 0
         await RisingEdge(self.dut.clk)
+
+    def offset(self, burst: Burst) -> int:
+        """Return where in its buffer a burst begins."""
+        return (burst.address - self.base) % RING_STRIDE_BYTES
 
     def weather(self, name: str) -> None:
         """Set idle cycles, stalls and latency."""
@@ -174,7 +175,7 @@ class Bench:
 
     def compare(self, published: Published) -> None:
         """Assert that the memory holds a record, byte for byte."""
-        got = self.memory.read(RING_BASE + published.offset, len(published.data))
+        got = self.memory.read(self.base + published.offset, len(published.data))
         if got == published.data:
             return
         at = next(i for i, (a, b) in enumerate(zip(got, published.data, strict=True)) if a != b)
@@ -205,9 +206,9 @@ class Bench:
 
     def _check_no_torn_record(self, address: int) -> None:
         """What a reader sees at any time: frame number 0 (or never written), or a whole record."""
-        index = (address - RING_BASE) // RING_STRIDE_BYTES
+        index = (address - self.base) // RING_STRIDE_BYTES
         assert 0 <= index < RING_BUFFERS, f"a write outside the ring at 0x{address:x}; {where()}"
-        start = RING_BASE + index * RING_STRIDE_BYTES
+        start = self.base + index * RING_STRIDE_BYTES
         number = int.from_bytes(self.memory.read(start + 60, 4), "little")
         if number in (0, 0xA5A5A5A5):
             return
@@ -240,7 +241,7 @@ class Bench:
                 self.done.append((index, number, self.memory.cycle))
                 offset = index * RING_STRIDE_BYTES
                 self.compare(Published(offset, index, number, self.expected.get(number, b"?")))
-                self._check_number_came_last(RING_BASE + offset)
+                self._check_number_came_last(self.base + offset)
 
     def _check_number_came_last(self, start: int) -> None:
         last = self.memory.bursts[-1]
@@ -314,7 +315,8 @@ async def write_errors(dut: HierarchyObject, place: str) -> None:
         bad = number % 3 == 0
         frame = Frame(random_frame(bench.rng, number).values, random_objects(bench.rng, 3), write_error=bad)
         frames.append(frame)
-        bench.memory.fails = PLACES[place] if bad else lambda _: False
+        fails = PLACES[place] if bad else lambda *_: False
+        bench.memory.fails = lambda burst, fails=fails: fails(bench.offset(burst), burst)
         bench.send(frame)
         await bench.settle()
         bench.forget_unsent_headers()
