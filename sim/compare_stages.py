@@ -4,7 +4,7 @@
 import itertools
 import re
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +14,7 @@ import numpy.typing as npt
 from golden.chain import PAPER, Settings, Stages, run_frames
 from golden.generated.landing_regs import (
     CTRL_DARK_IS_ONE_SHIFT,
+    CTRL_ENABLE_MASK,
     CTRL_LABEL_ZEROS_SHIFT,
     OBJECT_DTYPE,
     RECORD_DTYPE,
@@ -80,15 +81,20 @@ def stage_pixels(golden: Stages) -> dict[str, np.ndarray]:
     return dict(zip(PIXEL_STAGES, stages, strict=True))
 
 
+def ctrl_value(settings: Settings) -> int:
+    """The register CTRL that makes landing_core work by `settings`."""
+    order = settings.dark_is_one << CTRL_DARK_IS_ONE_SHIFT | settings.label_zeros << CTRL_LABEL_ZEROS_SHIFT
+    return CTRL_ENABLE_MASK | order
+
+
 def _run(frames: FrameList, settings: Settings, memory: Memory, out_dir: Path) -> tuple[int, float]:
-    ctrl = settings.dark_is_one << CTRL_DARK_IS_ONE_SHIFT | settings.label_zeros << CTRL_LABEL_ZEROS_SHIFT
     arguments = {
         "frames": frames.path,
         "out": out_dir,
         "frame-clocks": 0,
         "factor": settings.factor,
         "min-area": settings.min_area,
-        "ctrl": ctrl,
+        "ctrl": ctrl_value(settings),
         "random-memory": int(memory.random),
         "seed": memory.seed,
         "taps": 1,
@@ -225,8 +231,17 @@ def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, settin
     raise StageMismatchError(f"record, frame {shown.index}, object {wrong}: expected {want}, got {got}")
 
 
+Simulate = Callable[[FrameList, Settings, Path], tuple[int, float]]
+"""Shows a frame list to landing_core under some settings, leaves the files that `check_run` reads in a folder, and
+returns clocks and seconds; raises `StageMismatchError` if landing_core does not let it come to its end."""
+
+
 def compare(
-    frames: Iterable[np.ndarray], out_dir: Path, settings: Settings | None = None, memory: Memory | None = None
+    frames: Iterable[np.ndarray],
+    out_dir: Path,
+    settings: Settings | None = None,
+    memory: Memory | None = None,
+    simulate: Simulate | None = None,
 ) -> Report:
     """Show frames back to back and compare every stage.
 
@@ -234,7 +249,8 @@ def compare(
         frames: uint8 RGB of shape (height, width, 3), one size.
         out_dir: folder for the streams as files; made if needed.
         settings: registers; default those of the firmware.
-        memory: default one that answers at once.
+        memory: of the verilated model; default one that answers at once.
+        simulate: what runs the RTL; default the verilated model.
 
     Raises:
         StageMismatchError: a stage or a record differs; the message names the first place in the order of the data.
@@ -243,7 +259,10 @@ def compare(
     settings = settings or Settings()
     out_dir.mkdir(parents=True, exist_ok=True)
     shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM))
-    clocks, seconds = _run(shown, settings, memory or Memory(), out_dir)
+    if simulate is None:
+        clocks, seconds = _run(shown, settings, memory or Memory(), out_dir)
+    else:
+        clocks, seconds = simulate(shown, settings, out_dir)
     objects = check_run(shown, out_dir, settings)
     return Report(shown.shown, shown.shown * shown.width * shown.height, objects, clocks, seconds)
 
