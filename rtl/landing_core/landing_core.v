@@ -10,8 +10,8 @@
 // record of that frame. FRAME_SIZE also counts at the camera, a few clocks earlier: a frame in which it changes is cut
 // off and counted like any malformed one.
 // A record describes one frame: number, start time and thresholds are held from the moment in which ccl takes its
-// first pixel. By then the next frame has not begun to leave video_in, if frames have at least MIN_HEIGHT lines.
-// Limits: frames of at least 8 x MIN_HEIGHT pixels; a smaller FRAME_SIZE gives wrong frame numbers, never wrong pixels.
+// first pixel. By then the next frame has not begun to leave video_in, if frames have at least 16 lines.
+// Limits: frames of at least 16 x 16 pixels; a smaller FRAME_SIZE gives wrong frame numbers, never wrong pixels.
 
 `default_nettype none
 
@@ -143,7 +143,8 @@ module landing_core #(
     reg         lidar_broken_reg;
     wire        lidar_broken = lidar_timeout || lidar_too_long;
     // A sensor that never worked is a fault too; one that is switched off is none.
-    wire        lidar_fault = lidar_enable && ((lidar_valid_reg && !lidar_valid) || (lidar_broken && !lidar_broken_reg));
+    wire        lidar_lost = (lidar_valid_reg && !lidar_valid) || (lidar_broken && !lidar_broken_reg);
+    wire        lidar_fault = lidar_enable && lidar_lost;
 
     always @(posedge clk) begin
         if (frame_seen) frames_seen_reg <= frames_seen_reg + 32'd1;
