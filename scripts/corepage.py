@@ -2,7 +2,8 @@
 """docs/cores: its shape, its tables against the RTL, its pictures: `python -m scripts.corepage [--write]`.
 
 Every page has the sections of `SECTIONS`, in that order, with others anywhere between. The port and parameter tables
-name what the RTL has, with its directions, widths and defaults. The timing picture is drawn from JSON in the page.
+name what the RTL has, with its directions, widths and defaults. The timing picture is drawn from JSON in the page,
+whose inputs are played into the RTL and whose outputs are what it answers (scripts/corepage_timing.py).
 """
 
 import json
@@ -15,7 +16,9 @@ from functools import cache
 from pathlib import Path
 
 import wavedrom
+from lxml import etree
 
+from scripts.corepage_timing import as_text, simulate
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.lint import YOSYS, include_flags
 from tb.common.cores import ROOT, core_names, load_core
@@ -38,12 +41,14 @@ SECTIONS = (
 PORT_HEAD = "| port | direction | width | |"
 PARAMETER_HEAD = "| parameter | default | |"
 
+SVG = "{http://www.w3.org/2000/svg}"
+LINK = "{http://www.w3.org/1999/xlink}href"
 ROW = re.compile(r"^\| (.*) \|$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class Interface:
-    """Ports of a top level (name to direction and width) and its parameters (name to default), in the RTL's order."""
+    """Ports of a top level in its order (name to direction and width); its parameters by name (name to default)."""
 
     ports: dict[str, tuple[str, int]]
     parameters: dict[str, int]
@@ -100,9 +105,10 @@ def interface_faults(core: str, text: str, interface: Interface) -> list[str]:
 
 
 def shape_faults(core: str, text: str) -> list[str]:
-    """Which sections a page lacks, or has empty or out of order."""
+    """Whether a page begins with its purpose; which sections it lacks, or has empty or out of order."""
     body = sections(text)
-    found = [f"{core}: no section '{name}'" for name in SECTIONS if not body.get(name, "").strip()]
+    found = [] if re.match(rf"# {core}\n\n(?!#)\S", text) else [f"{core}: does not begin with its name and purpose"]
+    found += [f"{core}: no section '{name}'" for name in SECTIONS if not body.get(name, "").strip()]
     order = [name for name in body if name in SECTIONS]
     if not found and order != list(SECTIONS):
         found.append(f"{core}: sections are not in the order {', '.join(SECTIONS)}")
@@ -123,55 +129,88 @@ def block_of(core: str, text: str, name: str) -> re.Match[str]:
 
 def put_block(core: str, name: str, content: str) -> None:
     """Replace what stands between two markers of a page."""
-    text = page_path(core).read_text(encoding="utf-8")
+    text = read_page(core)
     place = block_of(core, text, name)
     page_path(core).write_text(f"{text[: place.start()]}{content}\n{text[place.end() :]}", encoding="utf-8")
 
 
-def draw(core: str, text: str) -> str:
-    """SVG of the WaveDrom JSON in the section Timing of a page.
+def timing_source(core: str, text: str) -> re.Match[str]:
+    """The WaveDrom JSON in the section Timing of a page.
 
     Raises:
-        UserError: There is none, or it is not JSON.
+        UserError: There is none.
     """
-    source = re.search(r"```json\n(.*?)```", sections(text).get("Timing", ""), flags=re.DOTALL)
-    if source is None:
+    found = re.search(r"(?<=```json\n){.*?}\n(?=```)", text, flags=re.DOTALL)
+    if found is None or found[0] not in sections(text).get("Timing", ""):
         raise UserError(f"docs/cores/{core}.md has no ```json block in its section Timing; put WaveDrom JSON there.")
-    try:
-        json.loads(source[1])
-    except json.JSONDecodeError as error:
-        raise UserError(f"the timing of docs/cores/{core}.md is not JSON: {error}.") from error
-    return wavedrom.render(source[1]).tostring() + "\n"
-
-
-def picture_faults(core: str, text: str) -> list[str]:
-    """Whether the picture is the one that the page's JSON gives, and the page shows it."""
-    path = PICTURES / f"{core}.svg"
-    found = [] if f"](../pictures/cores/{core}.svg)" in sections(text)["Timing"] else [f"{core}: shows no picture"]
-    if not path.is_file() or path.read_text(encoding="utf-8") != draw(core, text):
-        found.append(f"{core}: the picture is not what its JSON gives; run `python -m scripts.corepage --write`")
     return found
 
 
-def page_faults(core: str) -> list[str]:
-    """Everything that is wrong with a page, its resources aside (see scripts/synth.py)."""
+def simulated(core: str, source: str) -> str:
+    """The JSON of a picture with the outputs that the RTL gives.
+
+    Raises:
+        UserError: It is not JSON, or no stimulus for the core.
+    """
+    try:
+        return as_text(simulate(core, json.loads(source), interfaces()[core].ports))
+    except (ValueError, KeyError, IndexError, StopIteration) as error:
+        raise UserError(f"the timing of docs/cores/{core}.md cannot be played ({error!r}); mend its JSON.") from error
+
+
+def draw(source: str) -> str:
+    """SVG of WaveDrom JSON, on white, without the symbols that it does not use."""
+    svg = etree.fromstring(wavedrom.render(source).tostring().encode())
+    used = {use.get(LINK).removeprefix("#") for use in svg.iter(f"{SVG}use")}
+    for symbol in svg.findall(f".//{SVG}defs/{SVG}g"):
+        if symbol.get("id") not in used:
+            symbol.getparent().remove(symbol)
+    svg.insert(0, etree.Element(f"{SVG}rect", width="100%", height="100%", fill="white"))
+    return etree.tostring(svg, encoding="unicode") + "\n"
+
+
+def picture_faults(core: str, text: str) -> list[str]:
+    """Whether the waves are those of the RTL, the picture is that of the waves, and the page shows it."""
+    path, source = PICTURES / f"{core}.svg", timing_source(core, text)[0]
+    found = [] if f"](../pictures/cores/{core}.svg)" in sections(text)["Timing"] else [f"{core}: shows no picture"]
+    if source != simulated(core, source):
+        found.append(f"{core}: the waves are not those of the RTL; run `python -m scripts.corepage --write`")
+    if not path.is_file() or path.read_text(encoding="utf-8") != draw(source):
+        found.append(f"{core}: the picture is not that of its JSON; run `python -m scripts.corepage --write`")
+    return found
+
+
+def page_faults(core: str, text: str) -> list[str]:
+    """Everything that is wrong with the text of a page, its resources aside (see scripts/synth.py)."""
+    shape = shape_faults(core, text)
+    return shape or interface_faults(core, text, interfaces()[core]) + picture_faults(core, text)
+
+
+def read_page(core: str) -> str:
+    """Text of the page of a core.
+
+    Raises:
+        UserError: There is none.
+    """
     if not page_path(core).is_file():
-        return [f"{core}: docs/cores/{core}.md does not exist"]
-    text = page_path(core).read_text(encoding="utf-8")
-    return shape_faults(core, text) or interface_faults(core, text, interfaces()[core]) + picture_faults(core, text)
+        raise UserError(f"docs/cores/{core}.md does not exist; write the page of the core.")
+    return page_path(core).read_text(encoding="utf-8")
 
 
 def main() -> int:
-    """Check the pages, or draw their pictures anew."""
+    """Check the pages, or simulate and draw their timing anew."""
     parser = ArgumentParser(prog="python -m scripts.corepage", description=__doc__)
-    parser.add_argument("--write", action="store_true", help="draw the pictures of docs/pictures/cores")
+    parser.add_argument("--write", action="store_true", help="simulate and draw the timing anew")
     arguments = parser.parse_args()
     if arguments.write:
         PICTURES.mkdir(parents=True, exist_ok=True)
         for core in core_names():
-            picture = draw(core, page_path(core).read_text(encoding="utf-8"))
-            (PICTURES / f"{core}.svg").write_text(picture, encoding="utf-8")
-    found = [fault for core in core_names() for fault in page_faults(core)]
+            text = read_page(core)
+            place = timing_source(core, text)
+            source = simulated(core, place[0])
+            page_path(core).write_text(text[: place.start()] + source + text[place.end() :], encoding="utf-8")
+            (PICTURES / f"{core}.svg").write_text(draw(source), encoding="utf-8")
+    found = [fault for core in core_names() for fault in page_faults(core, read_page(core))]
     print("\n".join(found) if found else f"{len(core_names())} pages agree with the RTL.")
     return int(bool(found))
 

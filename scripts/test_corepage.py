@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every core's page has the agreed shape and says of ports, parameters and timing what the RTL does; drift is seen."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from scripts import corepage
+from scripts import corepage_timing as timing
+from scripts.corepage import page_faults, put_block, read_page
+from scripts.corepage_timing import drawn, driven
+from scripts.errors import UserError
+from tb.common.cores import ROOT, core_names, load_core
+
+
+@pytest.mark.parametrize("core", core_names())
+def test_page_agrees_with_the_rtl(core: str) -> None:
+    assert page_faults(core, read_page(core)) == []
+
+
+CHANGES = {
+    "wrong width": ("| `s_axis_tdata` | in | 8 |", "| `s_axis_tdata` | in | 9 |", "the RTL has `s_axis_tdata` in 8"),
+    "wrong direction": ("| `frame_error` | out |", "| `frame_error` | in |", "the page has `frame_error` in 1"),
+    "missing port": ("| `rst` | in | 1 | reset, synchronous to `clk`, active high |\n", "", "the RTL has `rst` in 1"),
+    "unknown port": ("| `rst` | in |", "| `enable` | in |", "the page has `enable` in 1"),
+    "wrong default": ("| `MAX_WIDTH` | 1280 |", "| `MAX_WIDTH` | 1920 |", "the RTL has `MAX_WIDTH` 1280"),
+    "missing section": ("## Rounding\n", "", "no section 'Rounding'"),
+    "empty section": ("Half up, once, at the end; intermediate sums are exact.", "", "no section 'Rounding'"),
+    "order": ("## Rounding\n", "## Overflow\nNone.\n\n## Rounding\n", "sections are not in the order"),
+    "no purpose": ("Gaussian blur, bit-exact", "## Gaussian blur", "does not begin with its name and purpose"),
+    "wrong wave": (
+        '"name": "m_axis_tuser", "wave": "x.',
+        '"name": "m_axis_tuser", "wave": "0.',
+        "not those of the RTL",
+    ),
+    "other input": ('"10", "FF"', '"10", "0F"', "not those of the RTL"),
+    "picture not shown": ("](../pictures/cores/gaussian5x5.svg)", "](../pictures/cores/ccl.svg)", "shows no picture"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_drift_is_seen(change: str) -> None:
+    before, after, sentence = CHANGES[change]
+    text = read_page("gaussian5x5")
+    assert before in text
+    found = page_faults("gaussian5x5", text.replace(before, after, 1))
+    assert any(sentence in fault for fault in found), found
+
+
+def test_a_picture_of_something_else_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(corepage, "PICTURES", tmp_path)
+    text = read_page("gaussian5x5")
+    stale = ["gaussian5x5: the picture is not that of its JSON; run `python -m scripts.corepage --write`"]
+    assert page_faults("gaussian5x5", text) == stale
+    (tmp_path / "gaussian5x5.svg").write_text((ROOT / "docs/pictures/cores/erode3x3.svg").read_text())
+    assert page_faults("gaussian5x5", text) == stale
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "sentence"),
+    [
+        ('"wave": "p', '"wave": p', "cannot be played"),
+        ('"name": "s_axis_tdata"', '"name": "s_axis_data"', "is no port of the core"),
+        ('"wave": "x1', '"wave": "|1', "cannot be played"),
+        ('"MAX_WIDTH": 8', '"MAX_WIDTH": 1', "does not elaborate"),
+        ("```json", "```", "put WaveDrom JSON there"),
+    ],
+)
+def test_unusable_timing_is_one_sentence(before: str, after: str, sentence: str) -> None:
+    text = read_page("gaussian5x5")
+    assert before in text
+    with pytest.raises(UserError, match=sentence):
+        page_faults("gaussian5x5", text.replace(before, after, 1))
+
+
+def test_what_the_rtl_does_is_what_is_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A core that is one clock slower, with the page of the right one."""
+    core = load_core("rgb2gray")
+    slow = tmp_path / "rgb2gray.v"
+    right = core.sources[-1].read_text()
+    wrong = right.replace("m_axis_tvalid", "early_tvalid")
+    delay = "reg late; always @(posedge clk) late <= early_tvalid; wire early_tvalid; assign m_axis_tvalid = late;\n"
+    wrong = wrong.replace("output wire        early_tvalid", "output wire        m_axis_tvalid")
+    slow.write_text(wrong.replace(");\n", f");\n{delay}", 1))
+    monkeypatch.setattr(timing, "load_core", lambda name: replace(core, sources=(*core.sources[:-1], slow)))
+    assert any("not those of the RTL" in fault for fault in page_faults("rgb2gray", read_page("rgb2gray")))
+
+
+def test_waves_of_inputs_and_outputs() -> None:
+    assert driven("x1.0=.", ["A5"], 8) == ["8'bx", "8'd1", "8'd1", "8'd0", "8'hA5", "8'hA5"]
+    assert drawn(["x0", "0x", "01", "01", "11"]) == ("x.=.=", ["1", "3"])
+    assert drawn(["0", "1", "1", "x", "0"]) == ("01.x0", [])
+
+
+def test_a_block_is_replaced_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(corepage, "PAGES", tmp_path)
+    (tmp_path / "ccl.md").write_text("before\n<!-- resources -->\nold\n<!-- /resources -->\nafter\n")
+    put_block("ccl", "resources", "new")
+    assert read_page("ccl") == "before\n<!-- resources -->\nnew\n<!-- /resources -->\nafter\n"
+    with pytest.raises(UserError, match="<!-- weather -->"):
+        put_block("ccl", "weather", "fine")
+    with pytest.raises(UserError, match="does not exist"):
+        read_page("erode3x3")
