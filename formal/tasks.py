@@ -45,6 +45,7 @@ class Fault:
     find: str
     replace: str
     quick: bool = False
+    wanted_depth: int = 0
 
     @property
     def id(self) -> str:
@@ -54,7 +55,7 @@ class Fault:
     @property
     def depth(self) -> int:
         """Cycles in which it must show."""
-        return self.task.depth if self.task.mode == "bmc" else FAULT_DEPTH
+        return self.wanted_depth or (self.task.depth if self.task.mode == "bmc" else FAULT_DEPTH)
 
     def text(self) -> str:
         """The source with the fault.
@@ -114,7 +115,12 @@ def load(core: str) -> tuple[list[Task], list[Fault]]:
         }
         faults = [
             Fault(
-                tasks[entry["task"]], ROOT / entry["source"], entry["find"], entry["replace"], entry.get("quick", False)
+                tasks[entry["task"]],
+                ROOT / entry["source"],
+                entry["find"],
+                entry["replace"],
+                entry.get("quick", False),
+                entry.get("depth", 0),
             )
             for entry in table["fault"]
         ]

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Assumes whole frames, one after the other, and keeps the pixels of the last two, so that a property can compare what
+// leaves with what came. frame 0 and 1 lie side by side; a pixel is at {frame, line, column}, two bits each of the last.
+`default_nettype none
+
+module whole_frames #(
+    parameter BITS = 1
+) (
+    input wire             clk,
+    input wire             rst,
+    input wire [     15:0] cfg_width,
+    input wire [     15:0] cfg_height,
+    input wire [ BITS-1:0] s_data,
+    input wire             s_valid,
+    input wire             s_ready,
+    input wire             s_user,
+    input wire             s_last,
+    input wire             m_valid,
+    input wire             m_ready,
+    input wire             m_user,
+    input wire             m_last,
+
+    output reg  [32*BITS-1:0] pixels,  // at {frame, line, column}
+    output reg  [        1:0] column,  // of the pixel that is at the output
+    output reg  [        1:0] line,
+    output reg                frame,
+    output reg                past     // cleared by reset: no reset came since
+);
+
+  reg known = 1'b0;
+  wire [1:0] last_column = cfg_width[1:0] - 2'd1;
+  wire [1:0] last_line = cfg_height[1:0] - 2'd1;
+  reg [1:0] in_column, in_line;
+  reg  in_frame;
+  wire in_line_ends = in_column == last_column;
+  wire in_frame_ends = in_line_ends && in_line == last_line;
+  wire line_ends = column == last_column;
+  wire frame_ends = line_ends && line == last_line;
+
+  always @* begin
+    if (s_valid) assume (s_user == (in_column == 2'd0 && in_line == 2'd0));
+    if (s_valid) assume (s_last == in_line_ends);
+  end
+
+  always @(posedge clk) begin
+    known  <= 1'b1;
+    past   <= 1'b1;
+    if (s_valid && s_ready) begin
+      pixels[{in_frame, in_line, in_column}*BITS+:BITS] <= s_data;
+      in_column <= in_line_ends ? 2'd0 : in_column + 2'd1;
+      in_line   <= in_frame_ends ? 2'd0 : in_line_ends ? in_line + 2'd1 : in_line;
+      in_frame  <= in_frame ^ in_frame_ends;
+    end
+    if (m_valid && m_ready) begin
+      column <= line_ends ? 2'd0 : column + 2'd1;
+      line   <= frame_ends ? 2'd0 : line_ends ? line + 2'd1 : line;
+      frame  <= frame ^ frame_ends;
+    end
+    if (rst) begin
+      {in_column, in_line, in_frame, column, line, frame} <= 10'd0;
+      past <= 1'b0;
+    end
+  end
+
+  always @(posedge clk)
+    if (known && !rst && m_valid) begin
+      assert (m_user == (column == 2'd0 && line == 2'd0));
+      assert (m_last == line_ends);
+    end
+
+endmodule
+
+`default_nettype wire

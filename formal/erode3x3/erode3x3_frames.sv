@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// erode3x3: 1 where all nine pixels around are 1, outside counts as 1, in every picture of a small frame, with every stall on both sides, frame after frame.
+`default_nettype none
+
+module erode3x3_frames #(
+    parameter WIDTH  = 3,
+    parameter HEIGHT = 3
+) (
+    input wire clk,
+    input wire rst,
+    input wire s_axis_tdata,
+    input wire s_axis_tvalid,
+    input wire s_axis_tuser,
+    input wire s_axis_tlast,
+    input wire m_axis_tready
+);
+
+  wire [15:0] cfg_width = WIDTH;
+  wire [15:0] cfg_height = HEIGHT;
+  wire s_axis_tready, m_axis_tvalid, m_axis_tuser, m_axis_tlast, m_axis_tdata, frame_error;
+
+  erode3x3 #(
+      .MAX_WIDTH (WIDTH),
+      .MAX_HEIGHT(HEIGHT)
+  ) dut (.*);
+
+  power_up start (.*);
+
+  wire [31:0] pixels;
+  wire [1:0] column, line;
+  wire frame, past;
+  wire [4:0] ones;
+
+  whole_frames frames (
+      .clk       (clk),
+      .rst       (rst),
+      .cfg_width (cfg_width),
+      .cfg_height(cfg_height),
+      .s_data    (s_axis_tdata),
+      .s_valid   (s_axis_tvalid),
+      .s_ready   (s_axis_tready),
+      .s_user    (s_axis_tuser),
+      .s_last    (s_axis_tlast),
+      .m_valid   (m_axis_tvalid),
+      .m_ready   (m_axis_tready),
+      .m_user    (m_axis_tuser),
+      .m_last    (m_axis_tlast),
+      .pixels    (pixels),
+      .column    (column),
+      .line      (line),
+      .frame     (frame),
+      .past      (past)
+  );
+
+  binary_window #(
+      .REACH(1),
+      .RULE (2)
+  ) window (.*);
+
+  always @(posedge clk)
+    if (past && !rst) begin
+      if (m_axis_tvalid) assert (m_axis_tdata == (ones == 5'd9));
+      assert (!frame_error);
+    end
+
+endmodule
+
+`default_nettype wire

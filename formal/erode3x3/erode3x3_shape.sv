@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// erode3x3: the markers of what leaves are those of frames, whatever comes in.
+`default_nettype none
+
+module erode3x3_shape #(
+    parameter WIDTH  = 2,
+    parameter HEIGHT = 2
+) (
+    input wire clk,
+    input wire rst,
+    input wire s_axis_tdata,
+    input wire s_axis_tvalid,
+    input wire s_axis_tuser,
+    input wire s_axis_tlast,
+    input wire m_axis_tready
+);
+
+  wire [15:0] cfg_width = WIDTH;
+  wire [15:0] cfg_height = HEIGHT;
+  wire s_axis_tready, m_axis_tvalid, m_axis_tuser, m_axis_tlast, frame_error;
+  wire m_axis_tdata;
+
+  erode3x3 #(
+      .MAX_WIDTH (WIDTH),
+      .MAX_HEIGHT(HEIGHT)
+  ) dut (.*);
+
+  power_up start (.*);
+
+  video_rules rules (
+      .clk       (clk),
+      .rst       (rst),
+      .cfg_width (cfg_width),
+      .cfg_height(cfg_height),
+      .s_valid   (s_axis_tvalid),
+      .s_ready   (s_axis_tready),
+      .s_user    (s_axis_tuser),
+      .m_valid   (m_axis_tvalid),
+      .m_ready   (m_axis_tready),
+      .m_user    (m_axis_tuser),
+      .m_last    (m_axis_tlast)
+  );
+
+endmodule
+
+`default_nettype wire
