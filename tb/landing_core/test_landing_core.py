@@ -14,7 +14,7 @@ from cocotb.handle import HierarchyObject
 from cocotb.triggers import ClockCycles, RisingEdge
 from cocotb.types import LogicArray
 from cocotb.utils import get_sim_time
-from cocotbext.axi import AxiLiteBus, AxiLiteMaster
+from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
 
 from golden.chain import Settings, run_chain
 from golden.generated import landing_regs as regs
@@ -205,6 +205,73 @@ async def registers_tell_what_was_built(dut: HierarchyObject) -> None:
     second, ended = await bench.read(regs.TIME_LO_OFFSET), get_sim_time("ns")
     passed = (ended - started) / (CLOCK_NS * CLK_PER_US)
     assert abs(second - first - passed) <= 1, f"time went on by {second - first}, expected {passed}; {where()}"
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def registers_hold_what_is_written(dut: HierarchyObject) -> None:
+    """Any value, in any order; an address beyond the registers is refused."""
+    bench = Bench(dut)
+    await bench.reset()
+    masks = {
+        regs.FRAME_SIZE_OFFSET: 0xFFFFFFFF,
+        regs.THRESHOLD_OFFSET: regs.THRESHOLD_FACTOR_MASK,
+        regs.MIN_AREA_OFFSET: 0xFFFFFFFF,
+        regs.RING_BASE_OFFSET: 0xFFFFFFFF,
+        regs.SCRATCH_OFFSET: 0xFFFFFFFF,
+    }
+    written: dict[int, int] = {}
+    for _ in range(60):
+        offset = bench.rng.choice(list(masks))
+        written[offset] = bench.rng.getrandbits(32) & masks[offset]
+        await bench.write(offset, written[offset])
+        offset = bench.rng.choice(list(written))
+        got = await bench.read(offset)
+        assert got == written[offset], f"register {offset:#x}: wrote {written[offset]:#x}, read {got:#x}; {where()}"
+    for _ in range(10):
+        address = bench.rng.randrange(0x80, 0x1000, 4)
+        for answer in (await bench.cpu.read(address, 4), await bench.cpu.write(address, bytes(4))):
+            assert answer.resp == AxiResp.SLVERR, f"address {address:#x} answers {answer.resp}; {where()}"
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def any_least_area(dut: HierarchyObject) -> None:
+    """The least area of all 32 bits reaches the labelling and the header, as large as it may be."""
+    bench = Bench(dut)
+    await bench.reset()
+    published: list[Expected] = []
+    for number in range(1, 9):
+        area = bench.rng.getrandbits(32) >> bench.rng.choice((0, 26))
+        await bench.configure(replace(bench.settings, min_area=area), (16, 16))
+        rgb = picture(bench.rng, 16, 16)
+        published.append(Expected(number, rgb, published[-1] if published else None, bench.settings))
+        raw = Raw()
+        raw.frame(lines_of(rgb), BLANKING)
+        raw.blank(2)
+        await bench.play(raw)
+        await bench.settle()
+        await bench.check_ring(published)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def too_little_blanking_overflows(dut: HierarchyObject) -> None:
+    """Frames without blanking overflow the FIFO while borders are flushed: counted, told; a later frame is whole."""
+    bench = Bench(dut)
+    await bench.reset()
+    rgbs = [picture(bench.rng, *bench.size) for _ in range(4)]
+    raw = Raw()
+    for rgb in rgbs:
+        raw.frame(lines_of(rgb))
+    raw.frame(lines_of(rgbs[0]), BLANKING)
+    raw.blank(2)
+    await bench.play(raw)
+    await bench.settle()
+    overflows = await bench.read(regs.FRAMES_OVERFLOW_OFFSET)
+    assert 1 <= overflows <= 4, f"{overflows} of 4 frames overflowed; {where()}"
+    assert await bench.read(regs.FRAMES_SEEN_OFFSET) == 5
+    status = await bench.read(regs.IRQ_STATUS_OFFSET)
+    assert status & regs.IRQ_STATUS_FRAME_OVERFLOW_MASK, f"IRQ_STATUS is {status:#x}; {where()}"
+    number = await bench.read(regs.FRAME_NUMBER_OFFSET)
+    assert number == 5, f"the newest record is of frame {number}, expected 5; {where()}"
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
