@@ -16,6 +16,7 @@ from tb.testplan import load_plan
 
 FOLDER = ROOT / "build/signoff"
 PAGE = ROOT / "docs/signoff.md"
+SHORT = {"passed": "ok", "failed": "FAILED", "stale": "stale", "missing": "missing", "exempt": "-"}
 CHECKS = ("matrix", "exhaustive", "frames", "formal", "mutation", "coverage", "lint", "area")
 
 
@@ -76,8 +77,9 @@ def combine(core: str, check: str, expected: list[str], what: str) -> Path:
     figure = what.format(count=f"{sum(part['count'] for part in parts.values()):,}")
     if len(parts) < len(expected):
         figure += f" ({len(parts)} of {len(expected)} runs)"
-    passed = not failed and len(parts) == len(expected)
-    return leave(core, check, passed, figure, {"failed": failed, "runs": parts})
+    complete = len(parts) == len(expected)
+    detail = {"failed": failed, "runs": parts, "incomplete": not complete}
+    return leave(core, check, not failed and complete, figure, detail)
 
 
 @dataclass(frozen=True)
@@ -101,13 +103,16 @@ def read_cell(core: str, check: str, exempt: dict[str, str]) -> Cell:
         result = json.loads(path.read_text(encoding="utf-8"))
         named = (result["core"], result["check"])
         passed, figure = result["passed"], result["figure"]
-    except (ValueError, KeyError, TypeError) as error:
+        incomplete = bool(result["detail"].get("incomplete")) and not result["detail"]["failed"]
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise UserError(f"{path.relative_to(ROOT)} is no result ({error!r}); run its check again.") from error
     if named != (core, check) or not isinstance(passed, bool):
         raise UserError(f"{path.relative_to(ROOT)} is the result of something else; run its check again.")
     if is_stale(path, core):
         return Cell("stale", f"stale: {figure}")
-    return Cell("passed", figure) if passed else Cell("failed", f"FAILED: {figure}")
+    if passed:
+        return Cell("passed", figure)
+    return Cell("missing", f"incomplete: {figure}") if incomplete else Cell("failed", f"FAILED: {figure}")
 
 
 def read_table() -> dict[str, dict[str, Cell]]:
@@ -156,10 +161,14 @@ def main() -> int:
     parser.add_argument("--write", action="store_true", help="make docs/signoff.md from the results")
     arguments = parser.parse_args()
     cells = read_table()
+    print(f"{'':<16}{''.join(f'{check:<12}' for check in CHECKS)}".rstrip())
     for core, line in cells.items():
-        print(core)
+        print(f"{core:<16}{''.join(f'{SHORT[cell.state]:<12}' for cell in line.values())}".rstrip())
+    for core, line in cells.items():
+        print(f"\n{core}")
         for check, cell in line.items():
             print(f"  {check:<10} {cell.text}")
+    print()
     states = [cell.state for line in cells.values() for cell in line.values()]
     counts = {state: states.count(state) for state in ("passed", "failed", "stale", "missing", "exempt")}
     print(", ".join(f"{count} {state}" for state, count in counts.items()))
