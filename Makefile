@@ -18,13 +18,14 @@ WAVES ?=
 FRAMES ?=
 ALTITUDE ?=
 FIRMWARE ?= qemu
+PHOTOS ?=
 JOBS ?= 2
 
 .PHONY: help
 help: ## This list
 	@printf 'Touchdown: cores and firmware that land a drone on a marked pad.\n\n'
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
-	@printf '\nOptions: CORE=name  SIM=icarus|verilator  SEED=n  WAVES=1  FRAMES=folder|video  ALTITUDE=csv|metres  FIRMWARE=qemu|host\n'
+	@printf '\nOptions: CORE=name  SIM=icarus|verilator  SEED=n  WAVES=1  FRAMES=folder|video  ALTITUDE=csv|metres  FIRMWARE=qemu|host  PHOTOS=folders\n'
 	@printf 'Start with: make demo\n'
 
 .PHONY: setup
@@ -78,6 +79,10 @@ mutation: setup ## Plant faults into the cores and count how many their own test
 .PHONY: coverage
 coverage: setup ## Lines, branches and toggles that the tests of the cores reach, and which they miss: [CORE=name]
 	@$(PYTHON) -m tb.coverage.run $(if $(CORE),--core "$(CORE)")
+
+.PHONY: frames
+frames: setup ## Whole frames through landing_core, every stream equal to golden: [PHOTOS="folder folder"]
+	@$(PYTHON) -m sim.full_frames $(if $(PHOTOS),--photos $(PHOTOS))
 
 .PHONY: regmap
 regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl

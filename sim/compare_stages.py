@@ -6,6 +6,7 @@ import re
 import subprocess
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -71,6 +72,11 @@ class Report:
         )
 
 
+Simulate = Callable[[FrameList, Settings, Path], tuple[int, float]]
+"""Shows a frame list to landing_core under some settings, leaves the files that `check_run` reads in a folder, and
+returns clocks and seconds; raises `StageMismatchError` if landing_core does not let it come to its end."""
+
+
 def stage_pixels(golden: Stages) -> dict[str, np.ndarray]:
     """What each pixel stream carries for one frame."""
     # RGB is {R, G, B} with the least byte first, as the stream is written; threshold_stats passes its pixels on.
@@ -87,7 +93,9 @@ def ctrl_value(settings: Settings) -> int:
     return CTRL_ENABLE_MASK | order
 
 
-def _run(frames: FrameList, settings: Settings, memory: Memory, out_dir: Path) -> tuple[int, float]:
+def verilated(frames: FrameList, settings: Settings, out_dir: Path, memory: Memory | None = None) -> tuple[int, float]:
+    """A `Simulate` of the verilated model; its memory answers at once by default."""
+    memory = memory or Memory()
     arguments = {
         "frames": frames.path,
         "out": out_dir,
@@ -231,17 +239,11 @@ def _compare_record(shown: Frame, objects: np.ndarray, frames: FrameList, settin
     raise StageMismatchError(f"record, frame {shown.index}, object {wrong}: expected {want}, got {got}")
 
 
-Simulate = Callable[[FrameList, Settings, Path], tuple[int, float]]
-"""Shows a frame list to landing_core under some settings, leaves the files that `check_run` reads in a folder, and
-returns clocks and seconds; raises `StageMismatchError` if landing_core does not let it come to its end."""
-
-
 def compare(
     frames: Iterable[np.ndarray],
     out_dir: Path,
     settings: Settings | None = None,
-    memory: Memory | None = None,
-    simulate: Simulate | None = None,
+    simulate: Simulate = verilated,
 ) -> Report:
     """Show frames back to back and compare every stage.
 
@@ -249,7 +251,6 @@ def compare(
         frames: uint8 RGB of shape (height, width, 3), one size.
         out_dir: folder for the streams as files; made if needed.
         settings: registers; default those of the firmware.
-        memory: of the verilated model; default one that answers at once.
         simulate: what runs the RTL; default the verilated model.
 
     Raises:
@@ -259,10 +260,7 @@ def compare(
     settings = settings or Settings()
     out_dir.mkdir(parents=True, exist_ok=True)
     shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM))
-    if simulate is None:
-        clocks, seconds = _run(shown, settings, memory or Memory(), out_dir)
-    else:
-        clocks, seconds = simulate(shown, settings, out_dir)
+    clocks, seconds = simulate(shown, settings, out_dir)
     objects = check_run(shown, out_dir, settings)
     return Report(shown.shown, shown.shown * shown.width * shown.height, objects, clocks, seconds)
 
@@ -302,7 +300,7 @@ def main() -> int:
     memory = Memory(options.slow_memory, options.seed)
     frames = open_frames(options.frames, options.limit)
     try:
-        print(compare(frames.open(), ROOT / "build" / "stages", settings, memory))
+        print(compare(frames.open(), ROOT / "build" / "stages", settings, partial(verilated, memory=memory)))
     except StageMismatchError as error:
         raise UserError(f"landing_core differs from its golden models: {error}.") from error
     return 0

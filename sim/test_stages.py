@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """landing_core as a whole, stage by stage, against the golden models; and proof that the comparison can fail."""
 
+from functools import partial
 from pathlib import Path
 from random import Random
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 from golden.chain import PAPER, Settings
-from sim.compare_stages import Memory, StageMismatchError, check_run, compare
+from sim.compare_stages import Memory, StageMismatchError, check_run, compare, verilated
 from sim.cosim.frame_list import FrameList
 from sim.cosim.result import read_result
 from sim.world.clip import demo_clip, images
@@ -45,7 +46,7 @@ def textured(seed: int, width: int, height: int) -> np.ndarray:
 )
 def test_small_frames(width: int, height: int, settings: Settings, memory: Memory, tmp_path: Path) -> None:
     frames = [textured(seed, width, height) for seed in range(5)]
-    print(compare(frames, tmp_path, settings, memory))
+    print(compare(frames, tmp_path, settings, partial(verilated, memory=memory)))
 
 
 def test_720p_back_to_back(tmp_path: Path) -> None:
@@ -64,7 +65,7 @@ def test_720p_back_to_back(tmp_path: Path) -> None:
 @pytest.mark.full
 def test_720p_at_length(tmp_path: Path) -> None:
     frames = (textured(seed, 1280, 720) for seed in range(20))
-    print(compare(frames, tmp_path, PAPER, Memory(random=True, seed=5)))
+    print(compare(frames, tmp_path, PAPER, partial(verilated, memory=Memory(random=True, seed=5))))
 
 
 @pytest.fixture(scope="module")
