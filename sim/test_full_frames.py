@@ -13,10 +13,11 @@ import pytest
 
 from golden.chain import Settings
 from scripts.errors import UserError
-from sim import full_frames
+from sim import frames_result, full_frames
 from sim.compare_stages import Simulate, StageMismatchError, verilated
 from sim.cosim.frame_list import FrameList
-from sim.full_frames import BATCH, CORES, Mismatch, Shot, batches, check, explain, photo_shots, rendered_shots
+from sim.frames_result import CORES, Mismatch
+from sim.full_frames import BATCH, Shot, batches, check, explain, photo_shots, rendered_shots
 from sim.test_stages import textured
 from sim.views import FARTHEST_M, NEAREST_M, views
 from sim.world.camera import Camera
@@ -29,10 +30,10 @@ def test_whole_frames() -> None:
     assert check(rendered_shots(20), photo_shots(os.environ.get("PHOTOS", "").split()), 3) == []
 
 
-def small(count: int, scale: int = 3) -> list[Shot]:
+def small(count: int, scale: int = 3, photo: bool = False) -> list[Shot]:
     """Small frames, which stand for whole ones; their shapes exceed the least area of the firmware."""
     frames = [textured(seed, 48, 40).repeat(scale, 0).repeat(scale, 1) for seed in range(count)]
-    return [Shot(f"texture {index}", lambda frame=frame: frame) for index, frame in enumerate(frames)]
+    return [Shot(f"texture {index}", lambda frame=frame: frame, photo) for index, frame in enumerate(frames)]
 
 
 def with_a_wrong_bit(file: str, share: float) -> Simulate:
@@ -57,21 +58,21 @@ def left(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, tuple[boo
         assert check_name == "frames"
         results[core] = (passed, figure)
 
-    monkeypatch.setattr(full_frames, "leave", leave)
+    monkeypatch.setattr(frames_result, "leave", leave)
     monkeypatch.setattr(full_frames, "OUTPUT", tmp_path)
     return results
 
 
 def test_equal_frames_pass(left: dict[str, tuple[bool, str]], capsys: pytest.CaptureFixture[str]) -> None:
     """In Verilator, in two runs; sim/icarus/test_landing_bench.py does it in Icarus."""
-    assert check(small(2), small(BATCH), 0) == []
+    assert check(small(2), small(BATCH, photo=True), 0) == []
     assert left == dict.fromkeys(CORES, (True, f"2 rendered + {BATCH} photos, 0 in Icarus"))
     assert f"Verilator: {BATCH + 2} frames equal" in capsys.readouterr().out
 
 
 def test_absent_photos_are_told(left: dict[str, tuple[bool, str]], capsys: pytest.CaptureFixture[str]) -> None:
     assert check(small(2), [], 0) == []
-    assert "photos were not given" in capsys.readouterr().out
+    assert "0 are photos: photos were not given" in capsys.readouterr().out
     assert set(left.values()) == {(True, "2 rendered + 0 photos, 0 in Icarus")}
 
 
@@ -111,11 +112,25 @@ def test_frames_without_an_object_fail(left: dict[str, tuple[bool, str]]) -> Non
 def test_a_source_that_changes_meanwhile_fails(
     left: dict[str, tuple[bool, str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    states = iter(([1], [2]))
-    monkeypatch.setattr(full_frames, "state_of_sources", lambda: next(states))
+    states = iter(("before", "after"))
+    monkeypatch.setattr(full_frames, "digest_of_sources", lambda: next(states))
     with pytest.raises(UserError, match="changed during the run"):
         check(small(2), [], 0)
     assert not left
+
+
+def test_simulators_one_after_the_other(left: dict[str, tuple[bool, str]], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each keeps what the other gave, Icarus alone is not enough, and other sources are another story."""
+    monkeypatch.setattr(full_frames, "icarus", verilated)
+    (mismatch,) = check(small(2), [], 2, only="icarus")
+    assert "no frame showed an object in Verilator" in mismatch.says
+    assert not any(passed for passed, _ in left.values())
+    assert check(small(4), [], 2, only="verilator") == []
+    assert set(left.values()) == {(True, "4 rendered + 0 photos, 2 in Icarus")}
+    for module in (full_frames, frames_result):
+        monkeypatch.setattr(module, "digest_of_sources", lambda: "changed")
+    assert check(small(3), [], 2, only="verilator") == []
+    assert set(left.values()) == {(True, "3 rendered + 0 photos, 0 in Icarus")}
 
 
 @pytest.mark.parametrize(("rendered", "in_icarus"), [(0, 0), (2, 3), (2, -1)])
@@ -128,7 +143,7 @@ def test_every_frame_counts_once_and_follows_another() -> None:
     shots = small(2 * BATCH + 1)
     runs = list(batches(shots))
     assert [shot for shown, _ in runs for shot in shown[1:]] == shots
-    assert [count for _, count in runs] == [BATCH, BATCH, 1]
+    assert [counted for _, counted in runs] == [shots[:BATCH], shots[BATCH:-1], shots[-1:]]
     assert [shown[0] for shown, _ in runs] == [shots[-1], shots[BATCH - 1], shots[2 * BATCH - 1]]
 
 
