@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from scripts.signoff import combine, leave_part
-from tb.common.cores import ROOT, load_core
-from tb.common.runner import check_simulator
+from tb.common.cores import ROOT, Core, load_core
+from tb.common.runner import OUTPUT, check_simulator
 
 GAPS = [(0, 0), (30, 0), (0, 60), (25, 40)]
 """Idle input and stalled output cycles, per cent each."""
@@ -27,11 +27,11 @@ EXHAUSTIVE = [
 """Runs of every image of a size: what sign-off wants to see."""
 
 
-def build(width: int, height: int) -> Path:
-    """Return the bench for these MAX_WIDTH and MAX_HEIGHT."""
+def build(width: int, height: int, core: Core | None = None, output: Path = OUTPUT) -> Path:
+    """Return the bench for these MAX_WIDTH and MAX_HEIGHT; `core` is ccl, with other sources if wanted."""
     check_simulator("verilator")
-    core = load_core("ccl")
-    folder = ROOT / "build/sim/ccl/exhaustive" / f"{width}x{height}"
+    core = core or load_core("ccl")
+    folder = output / "ccl/exhaustive" / f"{width}x{height}"
     folder.mkdir(parents=True, exist_ok=True)
     command = ["verilator", "--cc", "--exe", "--build", "-O3", "--top-module", core.toplevel]
     command += [f"-GMAX_WIDTH={width}", f"-GMAX_HEIGHT={height}", f"-I{ROOT / 'rtl/generated'}"]

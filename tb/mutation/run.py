@@ -20,6 +20,7 @@ from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.signoff import FOLDER, leave
 from tb.common.cores import ROOT, Core, core_names, load_core
 from tb.common.runner import check_simulator
+from tb.mutation.exhaustive import BENCHES
 from tb.mutation.plan import DEFAULT_SEED, HERE, Fault, chosen, plan
 from tb.mutation.simulate import Outcome, simulate
 
@@ -71,7 +72,7 @@ def check_equivalents(core_name: str, listed: Iterable[tuple[str, str, str]], fa
 
 
 def attempt(core: Core, fault: Fault, configs: list[int]) -> Entry:
-    """Run the tests of each config on a mutant until one finds it."""
+    """Run the tests of each config on a mutant until one finds it; after them the bench of BENCHES."""
     folder = WORK / core.name / hashlib.sha256("\n".join(fault.key).encode()).hexdigest()[:12]
     sources = fault.sources(core, folder)
     seconds = 0.0
@@ -81,6 +82,12 @@ def attempt(core: Core, fault: Fault, configs: list[int]) -> Entry:
         if outcome.verdict != "survived":
             shutil.rmtree(folder)
             return Entry(fault, outcome.verdict, outcome.reason, config, round(seconds, 1))
+    if core.name in BENCHES:
+        outcome = BENCHES[core.name](core, sources, folder)
+        seconds += outcome.seconds
+        if outcome.verdict != "survived":
+            shutil.rmtree(folder)
+            return Entry(fault, outcome.verdict, outcome.reason, None, round(seconds, 1))
     return Entry(fault, "survived", "", None, round(seconds, 1))
 
 
@@ -119,15 +126,13 @@ def digest(core: Core) -> str:
 
 
 def kept(core: Core, path: Path) -> dict[tuple[str, str, str], dict[str, object]]:
-    """Return the killed mutants of an earlier report, if it is about the same sources."""
+    """Return the mutants of an earlier report, if it is about the same sources."""
     if not path.is_file():
         return {}
     detail = json.loads(path.read_text(encoding="utf-8"))["detail"]
     if detail["sources"] != digest(core):
         return {}
-    return {
-        (item["file"], item["before"], item["after"]): item for item in detail["mutants"] if item["config"] is not None
-    }
+    return {(item["file"], item["before"], item["after"]): item for item in detail["mutants"]}
 
 
 def run(core: Core, seed: int, jobs: int, resume: bool) -> dict[str, Any]:
