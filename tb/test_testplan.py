@@ -34,6 +34,10 @@ def unknown_file(plan: Plan) -> None:
     plan["ccl"]["points"]["reset"].append("tb/ccl/test_nothing.py::test_nothing")
 
 
+def proof_of_nothing(plan: Plan) -> None:
+    plan["landing_core"]["points"]["formal"] = ["formal/test_formal.py::test_proof"]
+
+
 def unnamed_test(plan: Plan) -> None:
     for tests in plan["ccl"]["points"].values():
         tests[:] = [test for test in tests if test != "hard_images"]
@@ -63,6 +67,7 @@ def exempt_although_tested(plan: Plan) -> None:
         (empty_point, "ccl: reset has no test"),
         (unknown_test, "ccl: there is no test reset_at_the_weekend"),
         (unknown_file, "ccl: there is no test tb/ccl/test_nothing.py::test_nothing"),
+        (proof_of_nothing, "landing_core: formal/landing_core/tasks.toml does not exist"),
         (unnamed_test, "ccl: no testpoint names hard_images"),
         (unknown_core, "ccl2: no such core"),
         (empty_reason, "video_in: no reason for exhaustive"),

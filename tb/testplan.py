@@ -65,6 +65,8 @@ def faults(plan: Plan, cores: list[str], checks: tuple[str, ...]) -> list[str]:
         found += [f"{core}: {point} has no test" for point, tests in points.items() if not tests]
         found += [f"{core}: {point} is exempt but has tests" for point in exempt if point in points]
         found += [f"{core}: no reason for {name}" for name, reason in exempt.items() if not reason.strip()]
+        if "formal" in points and not (ROOT / "formal" / core / "tasks.toml").is_file():
+            found.append(f"{core}: formal/{core}/tasks.toml does not exist")
         found += [f"{core}: {name} is no point" for name in exempt if name not in {*POINTS, *checks}]
         named = set()
         for test in (test for tests in points.values() for test in tests):
