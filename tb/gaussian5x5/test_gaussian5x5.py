@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """gaussian5x5: the frame contract matrix, resets, and latency."""
 
+from random import Random, getrandbits
+
 import cocotb
 from cocotb.handle import HierarchyObject
+from cocotb.triggers import ClockCycles, RisingEdge
 
 from golden.gaussian5x5 import gaussian5x5
 from tb.common.contract import SizeLimits
-from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, named, run_reset, run_scene
-from tb.common.run import parameter
+from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, named, run_reset, run_scene, start
+from tb.common.run import parameter, where
 
 LIMITS = SizeLimits(3, 3, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
 CORE = VideoCore(golden=gaussian5x5, bits_in=8, reach=2, limits=LIMITS)
@@ -29,3 +32,19 @@ async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
 @cocotb.test()
 async def latency_and_throughput(dut: HierarchyObject) -> None:
     await check_latency(dut, CORE, cycles=LATENCY, flush_lines=2)
+
+
+@cocotb.test()
+async def reset_takes_nothing(dut: HierarchyObject) -> None:
+    """From the clock after the first one of a reset on, no pixel is taken and none is shown."""
+    await start(dut, Random(getrandbits(64)), "full_speed")
+    for _ in range(3):
+        dut.rst.value = 1
+        await ClockCycles(dut.clk, 2)
+        for _ in range(5):
+            await RisingEdge(dut.clk)
+            handshakes = int(dut.s_axis_tready.value), int(dut.m_axis_tvalid.value)
+            assert handshakes == (0, 0), f"(s_axis_tready, m_axis_tvalid) in reset: {handshakes}; {where()}"
+        dut.rst.value = 0
+        await ClockCycles(dut.clk, 20)
+        assert int(dut.s_axis_tready.value) == 1, f"s_axis_tready is 0 after reset; {where()}"
