@@ -19,6 +19,7 @@ import numpy as np
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.frames import open_frames, read_picture
 from sim.compare_stages import Simulate, StageMismatchError, compare, verilated
+from sim.cosim.build import need
 from sim.frames_result import (
     CORE_OF_STAGE,
     ICARUS,
@@ -150,6 +151,9 @@ def check(
     sources = digest_of_sources()
     some = [] if only == VERILATOR else some_of_each(rendered, photos, in_icarus)
     most = [] if only == ICARUS else shots
+    # Said now, not after the minutes of the other one.
+    for tool in ("iverilog", "vvp") if some else ():
+        need(tool)
     tell(
         f"Verilator: {len(most)} frames, Icarus: {len(some)}; {len(rendered)} are rendered, {len(photos)} are photos"
         + ("" if photos else ": photos were not given")
