@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assumes whole frames, one after the other, and keeps the pixels of the last two, so that a property can compare what
-// leaves with what came. frame 0 and 1 lie side by side; a pixel is at {frame, line, column}, two bits each of the last.
+// Assumes whole frames, one after the other, of two pictures in turn, any two; tells which pixel is at the output, so
+// that a property can compare it with what came. Reset comes once.
 `default_nettype none
 
 module whole_frames #(
@@ -20,12 +20,15 @@ module whole_frames #(
     input wire             m_user,
     input wire             m_last,
 
-    output reg  [32*BITS-1:0] pixels,  // at {frame, line, column}
+    output wire [32*BITS-1:0] pixels,  // at {frame, line, column}, with two bits each for the last two
     output reg  [        1:0] column,  // of the pixel that is at the output
     output reg  [        1:0] line,
     output reg                frame,
     output reg                past     // cleared by reset: no reset came since
 );
+
+  (* anyconst *) reg [32*BITS-1:0] pictures;
+  assign pixels = pictures;
 
   reg known = 1'b0;
   wire [1:0] last_column = cfg_width[1:0] - 2'd1;
@@ -38,15 +41,16 @@ module whole_frames #(
   wire frame_ends = line_ends && line == last_line;
 
   always @* begin
+    if (known) assume (!rst);
     if (s_valid) assume (s_user == (in_column == 2'd0 && in_line == 2'd0));
     if (s_valid) assume (s_last == in_line_ends);
+    if (s_valid) assume (s_data == pictures[{in_frame, in_line, in_column}*BITS+:BITS]);
   end
 
   always @(posedge clk) begin
     known  <= 1'b1;
     past   <= 1'b1;
     if (s_valid && s_ready) begin
-      pixels[{in_frame, in_line, in_column}*BITS+:BITS] <= s_data;
       in_column <= in_line_ends ? 2'd0 : in_column + 2'd1;
       in_line   <= in_frame_ends ? 2'd0 : in_line_ends ? in_line + 2'd1 : in_line;
       in_frame  <= in_frame ^ in_frame_ends;

@@ -4,7 +4,7 @@
 
 module dilate3x3_frames #(
     parameter WIDTH  = 3,
-    parameter HEIGHT = 3
+    parameter HEIGHT = 2
 ) (
     input wire clk,
     input wire rst,

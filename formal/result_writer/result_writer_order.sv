@@ -110,6 +110,8 @@ module result_writer_order #(
     known <= 1'b1;
     if (take) object <= s_axis_tdata;
     if (take && s_axis_tuser) sampled_number <= frame_number;
+    // Also while the frame number of the next one is set to 0.
+    if (frame_done || axi_error) open <= 1'b0;
     if (zeroes) begin
       {open, headed, failed, published} <= 4'b1000;
       base    <= m_axi_awaddr - 32'd56;
@@ -120,7 +122,6 @@ module result_writer_order #(
     if (publishes) published <= 1'b1;
     if (writes_object) objects <= objects + 2'd1;
     if (no) failed <= 1'b1;
-    if (frame_done || axi_error) open <= 1'b0;
     if (rst) {open, headed, failed, published} <= 4'd0;
   end
 

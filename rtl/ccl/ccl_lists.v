@@ -185,6 +185,11 @@ module ccl_lists #(
         save      <= event_valid && (fetch || fresh) && held_reg;
         save_slot <= held_home_reg;
         if (event_valid) held_home_reg <= home;
+        // The event of the clock of a reset is void, also if the reset is one clock long.
+        if (rst) begin
+            complete <= 1'b0;
+            save     <= 1'b0;
+        end
     end
 
     always @(posedge clk) begin

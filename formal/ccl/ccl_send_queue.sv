@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// ccl_send, the output of ccl: stream rules, and the queue never overflows as long as not more than six components come
+// after almost_full is seen, which is what the pipeline in front of it may hold.
+`default_nettype none
+
+module ccl_send_queue (
+    input wire         clk,
+    input wire         rst,
+    input wire         found_start,
+    input wire         found,
+    input wire         found_end,
+    input wire [235:0] found_record,
+    input wire         m_axis_tready
+);
+
+  localparam DEPTH = 6'd32;
+  localparam LATE = 3'd6;
+
+  wire almost_full, m_axis_tvalid, m_axis_tuser, m_axis_tlast;
+  wire [511:0] m_axis_tdata;
+
+  ccl_send dut (.*);
+
+  power_up start (.*);
+
+  axis_rules #(
+      .WIDTH(514)
+  ) rules (
+      .clk    (clk),
+      .rst    (rst),
+      .valid  (m_axis_tvalid),
+      .ready  (m_axis_tready),
+      .payload({m_axis_tuser, m_axis_tlast, m_axis_tdata})
+  );
+
+  reg known = 1'b0;
+  reg [2:0] late;  // that came since almost_full rose
+  reg [5:0] waiting;
+  wire push = found || found_end;
+
+  always @(posedge clk) begin
+    known   <= 1'b1;
+    late    <= almost_full ? late + {2'd0, push} : 3'd0;
+    waiting <= waiting + {5'd0, push} - {5'd0, m_axis_tvalid && m_axis_tready};
+    if (rst) waiting <= 6'd0;
+    if (rst) late <= 3'd0;
+  end
+
+  always @* if (almost_full && late == LATE) assume (!push);
+
+  (* hierconn *) wire [5:0] \dut.count ;
+
+  always @(posedge clk)
+    if (known) begin
+      assert (waiting <= DEPTH);
+      assert (m_axis_tvalid == (waiting != 6'd0));
+      // For induction.
+      assert (\dut.count == waiting);
+      assert (late <= LATE);
+      assert (waiting <= 6'd25 || almost_full);
+      assert (waiting <= 6'd26 + {3'd0, late});
+    end
+
+endmodule
+
+`default_nettype wire
