@@ -3,6 +3,7 @@
 
 import ast
 import tomllib
+from functools import cache
 from typing import Any
 
 from tb.common.cores import ROOT
@@ -31,6 +32,7 @@ def load_plan() -> Plan:
     return tomllib.loads(PLAN.read_text(encoding="utf-8"))
 
 
+@cache
 def tests_in(file: str) -> set[str]:
     """Names of the pytest functions, or in a file of cocotb tests of these, in a file given from the project root."""
     path = ROOT / file
