@@ -13,6 +13,7 @@ import pytest
 
 from scripts.signoff import combine, leave_part
 from tb.common.cores import ROOT, Core, load_core
+from tb.common.lock import locked
 from tb.common.runner import OUTPUT, check_simulator
 
 GAPS = [(0, 0), (30, 0), (0, 60), (25, 40)]
@@ -32,14 +33,14 @@ def build(width: int, height: int, core: Core | None = None, output: Path = OUTP
     check_simulator("verilator")
     core = core or load_core("ccl")
     folder = output / "ccl/exhaustive" / f"{width}x{height}"
-    folder.mkdir(parents=True, exist_ok=True)
     command = ["verilator", "--cc", "--exe", "--build", "-O3", "--top-module", core.toplevel]
     command += [f"-GMAX_WIDTH={width}", f"-GMAX_HEIGHT={height}", f"-I{ROOT / 'rtl/generated'}"]
     command += ["-CFLAGS", f"-O2 -std=c++17 -Wall -Wextra -Werror -I{ROOT / 'tb/ccl/exhaustive'}"]
     command += ["--Mdir", str(folder), "-o", "ccl_exhaustive"]
     command += [*map(str, core.sources), str(ROOT / "tb/ccl/exhaustive/main.cpp")]
     environment = {"OBJCACHE": "ccache", **os.environ}
-    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    with locked(folder):
+        result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert result.returncode == 0, result.stdout + result.stderr
     return folder / "ccl_exhaustive"
 
