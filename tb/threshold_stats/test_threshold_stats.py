@@ -29,18 +29,17 @@ def factor_of(first_pixel: int) -> int:
 
 
 async def begin(dut: HierarchyObject, stall: str) -> tuple[StreamBench, StreamSink]:
-    """Return bench and sink of the stat stream; cfg_factor changes with each start of frame."""
+    """Return bench and sink of the stat stream; cfg_factor is right with each start of frame only."""
     rng = Random(getrandbits(64))
     stats = StreamSink(dut, "m_stat_axis", dut.clk, dut.rst, rng)
     dut.cfg_factor.value = 0
     bench = await start(dut, rng, stall)
     stats.pause = stalls(rng, STALLS[stall][1])
-    set_size = bench.source.on_beat
+    set_size, scramble = bench.source.on_beat, Random(rng.getrandbits(64))
 
     def on_beat(beat: Beat) -> None:
         set_size(beat)
-        if beat.user:
-            dut.cfg_factor.value = factor_of(beat.data)
+        dut.cfg_factor.value = factor_of(beat.data) if beat.user else scramble.getrandbits(9)
 
     bench.source.on_beat = on_beat
     return bench, stats
