@@ -73,6 +73,23 @@ def installed_version(tool: Tool) -> str | None:
     return match.group() if match else None
 
 
+def debian_problems() -> list[str]:
+    """Debian packages that are absent or of another series than the tested one."""
+    if shutil.which("dpkg-query") is None:
+        return ["this is no Debian system: the versions in scripts/apt-packages.txt are yours to compare"]
+    problems = []
+    for package, wanted in apt_series().items():
+        query = ["dpkg-query", "-W", "-f=${Version}", package]
+        run = subprocess.run(query, capture_output=True, text=True, check=False)
+        # Without the epoch, and without the version that a package pretends to be.
+        found = run.stdout.split(":")[-1].split("+really")[-1]
+        if not found:
+            problems.append(f"Debian package {package} is absent: run `make setup`")
+        elif re.match(rf"{re.escape(wanted)}\b", found) is None:
+            problems.append(f"Debian package {package} is {found}, {wanted} is tested")
+    return problems
+
+
 def package_problems() -> list[str]:
     """Python packages in .venv whose version is not the pinned one."""
     python = VENV_BIN / "python"
@@ -101,7 +118,7 @@ def main() -> int:
         advice = "" if good else f"  <- run `make setup` (package {tool.provided_by})"
         problems += not good
         print(f"{'ok  ' if good else 'BAD '} {tool.name:10} {version or 'absent':12} wanted {tool.wanted}{advice}")
-    for problem in package_problems():
+    for problem in debian_problems() + package_problems():
         problems += 1
         print(f"BAD  {problem}")
     if problems:

@@ -123,9 +123,11 @@ def _video(path: Path, limit: int | None) -> FrameSet:
 
 
 def _is_whole(data: bytes) -> bool:
-    """False for an empty file and for a JPEG without its end, of which OpenCV would show the part that is there."""
+    """False for an empty file, and for a JPEG or PNG without its end: OpenCV would show the part that is there."""
     if data.startswith(b"\xff\xd8"):
         return data.rfind(b"\xff\xd9") > data.rfind(b"\xff\xda")
+    if data.startswith(b"\x89PNG"):
+        return b"IEND" in data[-12:]
     return bool(data)
 
 

@@ -47,6 +47,14 @@ def test_doctor_sees_a_missing_and_a_wrong_tool(monkeypatch: pytest.MonkeyPatch,
     assert "wanted 99.9" in output
 
 
+def test_doctor_sees_an_absent_and_a_wrong_debian_package(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "apt_series", lambda: {"make": "4.3", "g++": "99", "touchdown-no-such-package": "1"})
+    wrong, absent = doctor.debian_problems()
+    assert "g++ is 12" in wrong
+    assert "99 is tested" in wrong
+    assert "touchdown-no-such-package is absent" in absent
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -115,15 +115,17 @@ def test_undecodable_picture(tmp_path: Path, content: bytes) -> None:
 
 
 @pytest.mark.parametrize("kept", [0.3, 0.7, 0.999])
-def test_cut_off_jpeg(tmp_path: Path, kept: float) -> None:
-    """OpenCV would show the part that is there, and gray below."""
-    picture(tmp_path / "whole.jpg")
-    whole = (tmp_path / "whole.jpg").read_bytes()
+@pytest.mark.parametrize("kind", ["jpg", "png"])
+def test_cut_off_picture(tmp_path: Path, capfd: pytest.CaptureFixture, kind: str, kept: float) -> None:
+    """OpenCV would show the part that is there, and gray below, or complain in its own words."""
+    picture(tmp_path / f"whole.{kind}")
+    whole = (tmp_path / f"whole.{kind}").read_bytes()
     assert len(open_frames(str(tmp_path)).names) == 1
-    (tmp_path / "cut.jpg").write_bytes(whole[: int(len(whole) * kept)])
+    (tmp_path / f"cut.{kind}").write_bytes(whole[: int(len(whole) * kept)])
     with pytest.raises(UserError) as caught:
         open_frames(str(tmp_path))
-    assert "cut.jpg cannot be decoded" in sentence(caught)
+    assert f"cut.{kind} cannot be decoded" in sentence(caught)
+    assert capfd.readouterr().err == ""
 
 
 def test_file_that_is_no_video(tmp_path: Path) -> None:
