@@ -104,9 +104,10 @@ def report(core: Core, entries: list[Entry], complete: bool) -> dict[str, Any]:
     killed = counts["killed"] + counts["hang"]
     real = len(entries) - counts["equivalent"]
     broken = [entry for entry in entries if entry.verdict == "broken"]
+    unfinished = "" if complete else " so far, not all were tried"
     return {
         "passed": complete and not broken and real > 0 and killed >= GOAL * real,
-        "figure": f"{killed} of {real} mutants killed, {counts['equivalent']} equivalent",
+        "figure": f"{killed} of {real} mutants killed, {counts['equivalent']} equivalent{unfinished}",
         "detail": {
             "killed": killed,
             "total": len(entries),
