@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ccl against labelling by reachability, for every picture of 3x3, with every gap in the input and every stall of the
-// output: as many objects as components, in the order of their last pixels, each with its area and its box.
+// ccl against labelling by reachability, for every picture of 3x3, at full speed or with every gap and stall:
+// as many objects as components, in the order of their last pixels, each with its area and its box.
 `default_nettype none
 
-module ccl_pictures (
+module ccl_pictures #(
+    parameter STALLS = 0
+) (
     input wire clk,
     input wire rst,
     input wire s_axis_tvalid,
@@ -34,48 +36,47 @@ module ccl_pictures (
 
   power_up start (.*);
 
-  // Pixels that are connected: each pass takes in the neighbours of what was reached; four passes in raster order are plenty for 3x3.
-  reg [PIXELS-1:0] grown;
-  reg [PIXELS-1:0] is_last;  // the last pixel of a component
-  reg [3:0] components, area;
-  reg [1:0] min_x, max_x, min_y, max_y;
+  // reach[n]: which pixels are connected by a way of at most 2**n steps; no way in 3x3 needs more than eight.
+  localparam CELLS = PIXELS * PIXELS;
+  wire [CELLS-1:0] reach[0:3];
+  wire [PIXELS-1:0] is_last;  // the last pixel of a component
+  wire [3:0] index[0:PIXELS];  // of the component that ends there
+  wire [PIXELS-1:0] chosen[0:PIXELS];  // pixels of the component that is sent next
   reg [3:0] sent;
-  integer i, j, k, pass;
+  assign index[0] = 4'd0;
+  assign chosen[0] = 9'd0;
 
-  function near;
-    input integer a;
-    input integer b;
-    near = (a % SIZE) - (b % SIZE) <= 1 && (b % SIZE) - (a % SIZE) <= 1 && a / SIZE - b / SIZE <= 1 && b / SIZE - a / SIZE <= 1;
-  endfunction
-
-  always @* begin
-    components = 4'd0;
-    area = 4'd0;
-    {min_x, max_x, min_y, max_y} = 8'b11_00_11_00;
-    for (i = 0; i < PIXELS; i = i + 1) begin
-      grown = 9'd0;
-      grown[i] = picture[i];
-      for (pass = 0; pass < 4; pass = pass + 1)
-        for (j = 0; j < PIXELS; j = j + 1)
-          for (k = 0; k < PIXELS; k = k + 1) if (near(j, k) && grown[k] && picture[j]) grown[j] = 1'b1;
-      is_last[i] = picture[i] && (grown >> (i + 1)) == 9'd0;
-      if (is_last[i]) begin
-        // The component that is sent next is described.
-        if (components == sent)
-          for (j = 0; j < PIXELS; j = j + 1)
-            if (grown[j]) begin
-              area = area + 4'd1;
-              if (j % SIZE < min_x) min_x = j % SIZE;
-              if (j % SIZE > max_x) max_x = j % SIZE;
-              if (j / SIZE < min_y) min_y = j / SIZE;
-              if (j / SIZE > max_y) max_y = j / SIZE;
-            end
-        components = components + 4'd1;
+  genvar i, j, n;
+  generate
+    for (i = 0; i < PIXELS; i = i + 1) begin : g_from
+      for (j = 0; j < PIXELS; j = j + 1) begin : g_to
+        localparam DX = i % SIZE - j % SIZE;
+        localparam DY = i / SIZE - j / SIZE;
+        assign reach[0][i*PIXELS+j] = picture[i] && picture[j] && DX * DX <= 1 && DY * DY <= 1;
+        for (n = 0; n < 3; n = n + 1) begin : g_further
+          assign reach[n+1][i*PIXELS+j] = |(reach[n][i*PIXELS+:PIXELS] & reach[n][j*PIXELS+:PIXELS]);
+        end
       end
+      wire [PIXELS-1:0] component = reach[3][i*PIXELS+:PIXELS];
+      assign is_last[i] = picture[i] && (component >> (i + 1)) == 9'd0;
+      assign index[i+1] = index[i] + {3'd0, is_last[i]};
+      assign chosen[i+1] = chosen[i] | (is_last[i] && index[i] == sent ? component : 9'd0);
     end
-  end
+  endgenerate
+
+  wire [3:0] components = index[PIXELS];
+  wire [PIXELS-1:0] object = chosen[PIXELS];
+  wire [3:0] area = {3'd0, object[0]} + object[1] + object[2] + object[3] + object[4] + object[5] + object[6] + object[7] +
+      object[8];
+  wire [2:0] columns = object[2:0] | object[5:3] | object[8:6];
+  wire [2:0] lines = {|object[8:6], |object[5:3], |object[2:0]};
+  wire [1:0] min_x = columns[0] ? 2'd0 : columns[1] ? 2'd1 : 2'd2;
+  wire [1:0] max_x = columns[2] ? 2'd2 : columns[1] ? 2'd1 : 2'd0;
+  wire [1:0] min_y = lines[0] ? 2'd0 : lines[1] ? 2'd1 : 2'd2;
+  wire [1:0] max_y = lines[2] ? 2'd2 : lines[1] ? 2'd1 : 2'd0;
 
   reg past;
+  always @* if (STALLS == 0) assume (s_axis_tvalid && m_axis_tready);
   always @* if (past) assume (!rst);
 
   always @(posedge clk) begin
