@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from golden.generated.landing_regs import HEADER_FLAGS_THRESHOLDS_MISSING_MASK
+from golden.generated.landing_regs import FRAME_SIZE_OFFSET, HEADER_FLAGS_THRESHOLDS_MISSING_MASK
 from scripts.errors import UserError
 from sim.cosim.build import build_firmware, build_plugin
 from sim.cosim.frame_list import write_frame_list
@@ -179,9 +179,37 @@ def test_unknown_qemu_is_one_sentence(text: str, tmp_path: Path, monkeypatch: py
         run("qemu", tmp_path / "out")
 
 
-def test_a_firmware_that_hangs_is_one_sentence(tmp_path: Path) -> None:
-    source, elf = tmp_path / "hang.S", tmp_path / "hang.elf"
-    source.write_text("_start: b .\n")
+# What a firmware must not do, and what the run says of it. PL is where landing_core stands.
+PL = "ldr r0, =0x43C00000\n"
+WRONG_FIRMWARE = [
+    pytest.param(
+        "",
+        "the firmware did not enable the camera input within 20 ms; look at its messages on UART1.",
+        id="hangs",
+    ),
+    pytest.param(
+        f"{PL} ldr r1, =720 << 16 | 1279\n str r1, [r0, #{FRAME_SIZE_OFFSET}]\n",
+        f"the firmware wrote {720 << 16 | 1279} to FRAME_SIZE and not {720 << 16 | 1280}, "
+        "the 1280x720 of the board's camera.",
+        id="writes-a-wrong-size",
+    ),
+    pytest.param(
+        f"{PL} ldr r1, [r0, #0x100]\n",
+        "landing_core refuses the CPU's read at register offset 0x100: a data abort on the board.",
+        id="reads-beyond-the-registers",
+    ),
+    pytest.param(
+        f"{PL} str r1, [r0, #0xffc]\n",
+        "landing_core refuses the CPU's write at register offset 0xffc: a data abort on the board.",
+        id="writes-beyond-the-registers",
+    ),
+]
+
+
+@pytest.mark.parametrize(("code", "sentence"), WRONG_FIRMWARE)
+def test_a_wrong_firmware_is_one_sentence(code: str, sentence: str, tmp_path: Path) -> None:
+    source, elf = tmp_path / "wrong.S", tmp_path / "wrong.elf"
+    source.write_text(f"_start: {code} b .\n")
     flags = ["-nostdlib", "-mcpu=cortex-a9", "-Ttext", "0x100000"]
     subprocess.run(["arm-none-eabi-gcc", *flags, "-o", str(elf), str(source)], check=True)
     frames = write_frame_list(tmp_path / "frames.tdf", [np.zeros((16, 16, 3), np.uint8)], [1000])
@@ -189,9 +217,7 @@ def test_a_firmware_that_hangs_is_one_sentence(tmp_path: Path) -> None:
     command = qemu_command(find_qemu(), elf, build_plugin(), arguments, tmp_path)
     process = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert process.returncode == 1
-    assert process.stderr.splitlines()[-1] == (
-        "touchdown: the firmware did not enable the camera input within 20 ms; look at its messages on UART1."
-    )
+    assert process.stderr.splitlines()[-1] == f"touchdown: {sentence}"
 
 
 FRAME = np.zeros((HEIGHT, WIDTH, 3), np.uint8)

@@ -85,7 +85,6 @@ private:
                            reinterpret_cast<uint8_t*>(&record), sizeof record);
         touchdown_on_record(&record, sizeof record, now_us());
         model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
-        model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
     }
 
     void tick() {

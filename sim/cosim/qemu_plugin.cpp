@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "sim/cosim/qemu_abi.h"
@@ -36,6 +37,9 @@ constexpr uint64_t COARSE_NS = 10'000;
 // Virtual time in which the firmware must enable the camera input.
 constexpr uint64_t BOOT_LIMIT_NS = 20'000'000;
 constexpr int OVERLAY_PRIORITY = 10;
+
+// The board's camera, in FRAME_SIZE.
+constexpr uint64_t CAMERA_SIZE = 720 << 16 | 1280;
 
 constexpr uint64_t UART_ADDRESS[2] = {0xE0000000, 0xE0001000};
 constexpr uint64_t UART_BAUDGEN = 0x18;
@@ -190,12 +194,20 @@ private:
 
     void write(uint64_t address, uint64_t value, unsigned size) {
         const auto word_address = static_cast<uint32_t>(address & ~uint64_t{3});
-        // The firmware is built for its camera; a test camera may be smaller.
-        if (word_address == LANDING_REG_FRAME_SIZE_OFFSET) value = frames_.height() << 16 | frames_.width();
+        if (word_address == LANDING_REG_FRAME_SIZE_OFFSET) value = frame_size(value, size);
         model_->advance_to(virtual_ns());
         model_->write(word_address, static_cast<uint32_t>(value << (8 * (address & 3))),
                       ((1u << size) - 1) << (address & 3));
         if (word_address == LANDING_REG_CTRL_OFFSET && (value & LANDING_REG_CTRL_ENABLE_MASK) != 0) enabled_ = true;
+    }
+
+    // The firmware is built for its camera; a test camera may be smaller.
+    uint64_t frame_size(uint64_t written, unsigned size) const {
+        const uint64_t shown = frames_.height() << 16 | frames_.width();
+        if (shown == CAMERA_SIZE) return written;
+        if (size == 4 && written == CAMERA_SIZE) return shown;
+        throw std::runtime_error("the firmware wrote " + std::to_string(written) + " to FRAME_SIZE and not " +
+                                 std::to_string(CAMERA_SIZE) + ", the 1280x720 of the board's camera.");
     }
 
     void tick() {

@@ -3,6 +3,7 @@
 
 #include <verilated.h>
 
+#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 
@@ -17,6 +18,15 @@ namespace {
 constexpr uint64_t NS_PER_S = 1'000'000'000;
 constexpr uint64_t RESET_CLOCKS = 16;
 constexpr uint64_t BUS_TIMEOUT_CLOCKS = 1000;
+
+// The CPU takes any other answer as a data abort.
+void must_be_okay(uint8_t response, const char* access, uint32_t address) {
+    if (response == 0) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "landing_core refuses the CPU's %s at register offset 0x%x: a data abort on the board.",
+                  access, static_cast<unsigned>(address));
+    throw std::runtime_error(text);
+}
 }  // namespace
 
 LandingModel::LandingModel(const ModelConfig& config, const FrameList& frames, Board& board)
@@ -88,7 +98,8 @@ void LandingModel::clk_sample() {
             top_->s_axil_arvalid && top_->s_axil_arready,
             top_->s_axil_rvalid && top_->s_axil_rready,
             top_->s_axil_rdata,
-            top_->s_axil_rresp};
+            top_->s_axil_rresp,
+            top_->s_axil_bresp};
     master_ = {static_cast<bool>(top_->m_axi_awvalid),
                top_->m_axi_awaddr,
                top_->m_axi_awlen,
@@ -166,7 +177,8 @@ uint32_t LandingModel::read(uint32_t address) {
     top_->s_axil_arvalid = 0;
     settled_ = false;
     if (!cpu_.r) wait_for([this] { return cpu_.r; });
-    const uint32_t value = cpu_.resp == 0 ? cpu_.rdata : 0;
+    must_be_okay(cpu_.rresp, "read", address);
+    const uint32_t value = cpu_.rdata;
     top_->s_axil_rready = 0;
     settled_ = false;
     return value;
@@ -186,6 +198,7 @@ void LandingModel::write(uint32_t address, uint32_t value, uint32_t strobes) {
         settled_ = false;
         return cpu_.b;
     });
+    must_be_okay(cpu_.bresp, "write", address);
     top_->s_axil_bready = 0;
     settled_ = false;
 }

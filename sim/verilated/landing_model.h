@@ -95,7 +95,8 @@ private:
     // Handshakes of the CPU port at the last clock edge.
     struct {
         bool aw, w, b, ar, r;
-        uint32_t rdata, resp;
+        uint32_t rdata;
+        uint8_t rresp, bresp;
     } cpu_ = {};
 };
 
