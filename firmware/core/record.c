@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -17,6 +18,14 @@ static void copy_words(unsigned char *to, const volatile uint32_t *from, size_t 
     }
 }
 
+// The ring is memory to the processor, not device: without fences it may read
+// what stands between in any order.
+static uint32_t closing_number(const volatile uint32_t *source)
+{
+    atomic_thread_fence(memory_order_acquire);
+    return source[FRAME_NUMBER_WORD];
+}
+
 int record_copy_from_ring(struct landing_record *copy, const volatile uint32_t *source)
 {
     // The hardware zeroes the frame number before it touches a buffer and writes
@@ -24,12 +33,13 @@ int record_copy_from_ring(struct landing_record *copy, const volatile uint32_t *
     // that nothing was written in between.
     const uint32_t number = source[FRAME_NUMBER_WORD];
 
+    atomic_thread_fence(memory_order_acquire);
     copy_words((unsigned char *)&copy->header, source, HEADER_WORDS);
     if (copy->header.object_count > LANDING_RECORD_MAX_OBJECTS) {
-        return source[FRAME_NUMBER_WORD] == number ? RECORD_E_COUNT : RECORD_E_TORN;
+        return closing_number(source) == number ? RECORD_E_COUNT : RECORD_E_TORN;
     }
     copy_words((unsigned char *)copy->objects, source + HEADER_WORDS, copy->header.object_count * OBJECT_WORDS);
-    if (number == 0U || copy->header.frame_number != number || source[FRAME_NUMBER_WORD] != number) {
+    if (number == 0U || copy->header.frame_number != number || closing_number(source) != number) {
         return RECORD_E_TORN;
     }
     return (int)(sizeof copy->header + copy->header.object_count * sizeof copy->objects[0]);

@@ -46,6 +46,7 @@ int main(void)
     test_fusion();
     test_pad_pose();
     test_record();
+    test_record_torn();
     test_shapes();
     test_uart_baud();
     (void)printf("unit_tests: %d checks, %d failures\n", checks, failures);
