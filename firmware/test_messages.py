@@ -226,7 +226,7 @@ def test_links_carry_the_load() -> None:
     record = record_of(Pose(1.0), altitude_valid=1, altitude_mm=1000)
     for now_us in range(0, 1_000_000, 1000):
         firmware.tick(now_us)
-    for _ in range(60):
-        firmware.on_record(record)
+    for number in range(1, 61):
+        assert firmware.on_record(record[:60] + number.to_bytes(4, "little") + record[64:]) == 0
     for link, baud in BAUD.items():
         assert len(firmware.sent[link]) * 10 < 0.9 * baud, f"link {link}: {len(firmware.sent[link])} bytes a second"

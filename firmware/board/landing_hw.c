@@ -4,14 +4,13 @@
 #include <stddef.h>
 
 #include "board.h"
-#include "byte_ring.h"
+#include "frame_queue.h"
 #include "gic.h"
 #include "record.h"
 #include "zynq.h"
 
 #define RING_WORDS (LANDING_RING_BUFFERS * LANDING_RING_STRIDE_BYTES / sizeof(uint32_t))
 #define BUFFER_WORDS (LANDING_RING_STRIDE_BYTES / sizeof(uint32_t))
-#define PENDING_FRAMES 8U
 #define ALL_INTERRUPTS                                                                                                 \
     (LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK | LANDING_REG_IRQ_ENABLE_FRAME_MALFORMED_MASK |                            \
      LANDING_REG_IRQ_ENABLE_FRAME_OVERFLOW_MASK | LANDING_REG_IRQ_ENABLE_AXI_ERROR_MASK |                              \
@@ -19,9 +18,7 @@
 
 static volatile uint32_t ring[RING_WORDS] __attribute__((aligned(4096), section(".ring")));
 
-// Indices of buffers that are complete and not yet read.
-static struct byte_ring pending;
-static uint8_t pending_storage[PENDING_FRAMES];
+static struct frame_queue pending;
 
 static uint32_t get(uint32_t offset)
 {
@@ -41,9 +38,10 @@ static void handle(void)
     // raises the interrupt again instead of being lost.
     set(LANDING_REG_IRQ_STATUS_OFFSET, status);
     if ((status & LANDING_REG_IRQ_STATUS_FRAME_DONE_MASK) != 0U) {
-        const uint8_t index = (uint8_t)(get(LANDING_REG_RING_HEAD_OFFSET) & LANDING_REG_RING_HEAD_INDEX_MASK);
-        // With no room the main loop is more than a ring behind: nothing is lost by this.
-        (void)byte_ring_put(&pending, &index, 1U);
+        // A frame that completes between the two reads makes a pair that the copy
+        // refuses; its own interrupt brings the pair that fits.
+        const uint32_t number = get(LANDING_REG_FRAME_NUMBER_OFFSET);
+        frame_queue_put(&pending, number, get(LANDING_REG_RING_HEAD_OFFSET) & LANDING_REG_RING_HEAD_INDEX_MASK);
     }
 }
 
@@ -68,7 +66,7 @@ const char *landing_hw_fault(void)
 
 void landing_hw_start(uint32_t min_area_px)
 {
-    byte_ring_init(&pending, pending_storage, PENDING_FRAMES);
+    frame_queue_init(&pending);
     for (uint32_t i = 0; i < LANDING_RING_BUFFERS; i++) {
         ring[i * BUFFER_WORDS + offsetof(struct landing_result_header, frame_number) / sizeof(uint32_t)] = 0U;
     }
@@ -112,15 +110,18 @@ struct lidar_reading landing_hw_lidar(void)
 
 bool landing_hw_frame_pending(void)
 {
-    return !byte_ring_is_empty(&pending);
+    return !frame_queue_is_empty(&pending);
 }
 
 int landing_hw_take_frame(struct landing_record *record)
 {
-    uint8_t index;
+    struct frame_queue_entry frame;
 
-    if (byte_ring_take(&pending, &index, 1U) == 0U || index >= LANDING_RING_BUFFERS) {
+    interrupts_disable();
+    const enum frame_queue_result result = frame_queue_take(&pending, &frame);
+    interrupts_enable();
+    if (result != FRAME_QUEUE_TAKEN || frame.index >= LANDING_RING_BUFFERS) {
         return RECORD_E_TORN;
     }
-    return record_copy_from_ring(record, &ring[index * BUFFER_WORDS]);
+    return record_copy_from_ring(record, &ring[frame.index * BUFFER_WORDS], frame.number);
 }

@@ -132,6 +132,11 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         app_on_lost_record(app);
         return error;
     }
+    // The hardware may announce a frame twice. Numbers wrap.
+    if (app->last_frame_number != 0U && record->header.frame_number - app->last_frame_number - 1U > INT32_MAX) {
+        return RECORD_E_OLD;
+    }
+    app->last_frame_number = record->header.frame_number;
     app->last_record_us = now_us;
     adapt_min_area(app, &record->header);
     app->health[APP_HEALTH_RECORDS]++;

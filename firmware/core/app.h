@@ -71,6 +71,7 @@ struct app {
     uint64_t next_heartbeat_us;
     uint64_t next_distance_us;
     uint64_t last_record_us;
+    uint32_t last_frame_number; // 0 = none yet
     bool camera_lost;
     uint32_t min_area_px;
     uint32_t health[APP_HEALTH_FIELDS];
@@ -82,7 +83,8 @@ struct app {
 void app_init(struct app *app, const struct app_port *port, uint64_t now_us, const char *fault);
 
 // One record of `size_bytes`, as copied. Returns 0, or the RECORD_E_* for which
-// it was rejected.
+// it was rejected. Frames go forward only: one that is not newer than the last is
+// dropped (RECORD_E_OLD), so that no LANDING_TARGET repeats and no time goes back.
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us);
 
 // A record that was lost on its way here.

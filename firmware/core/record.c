@@ -26,20 +26,20 @@ static uint32_t closing_number(const volatile uint32_t *source)
     return source[FRAME_NUMBER_WORD];
 }
 
-int record_copy_from_ring(struct landing_record *copy, const volatile uint32_t *source)
+int record_copy_from_ring(struct landing_record *copy, const volatile uint32_t *source, uint32_t number)
 {
     // The hardware zeroes the frame number before it touches a buffer and writes
     // it after everything else: the same number before and after the copy means
     // that nothing was written in between.
-    const uint32_t number = source[FRAME_NUMBER_WORD];
+    const bool complete = source[FRAME_NUMBER_WORD] == number && number != 0U;
 
     atomic_thread_fence(memory_order_acquire);
     copy_words((unsigned char *)&copy->header, source, HEADER_WORDS);
     if (copy->header.object_count > LANDING_RECORD_MAX_OBJECTS) {
-        return closing_number(source) == number ? RECORD_E_COUNT : RECORD_E_TORN;
+        return complete && closing_number(source) == number ? RECORD_E_COUNT : RECORD_E_TORN;
     }
     copy_words((unsigned char *)copy->objects, source + HEADER_WORDS, copy->header.object_count * OBJECT_WORDS);
-    if (number == 0U || copy->header.frame_number != number || closing_number(source) != number) {
+    if (!complete || copy->header.frame_number != number || closing_number(source) != number) {
         return RECORD_E_TORN;
     }
     return (int)(sizeof copy->header + copy->header.object_count * sizeof copy->objects[0]);

@@ -17,7 +17,7 @@ typedef void (*touchdown_write)(void *context, int link, const uint8_t *bytes, s
 void touchdown_init(touchdown_write write, void *context, uint64_t now_us);
 
 // A result record: header and its objects, as the ring holds them. Returns 0,
-// or a negative number (core/record.h) when it is rejected.
+// or a negative number (core/record.h) when it is rejected. Frame numbers must rise.
 int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us);
 
 // What the firmware would now write into MIN_AREA, in pixels.

@@ -18,6 +18,7 @@ void test_app(void);
 void test_byte_ring(void);
 void test_camera(void);
 void test_classify(void);
+void test_frame_queue(void);
 void test_fusion(void);
 void test_pad_pose(void);
 void test_record(void);

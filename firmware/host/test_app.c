@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only the C interface shows; the bytes themselves are decoded by
-// firmware/test_firmware.py.
+// firmware/test_messages.py.
 #include <string.h>
 
 #include "app.h"
@@ -30,6 +30,7 @@ static void start(void)
 
 static void give(uint32_t objects_dropped)
 {
+    record.header.frame_number++;
     record.header.objects_dropped = objects_dropped;
     record.header.min_area = app_min_area_px(&app);
     CHECK(app_on_record(&app, &record, sizeof record, 1000) == 0);
@@ -43,6 +44,7 @@ static void test_min_area(void)
     const uint32_t first = app_min_area_px(&app);
     give(10U);
     CHECK(app_min_area_px(&app) > first);
+    record.header.frame_number++;
     record.header.min_area = 1U; // a frame from before the change
     const uint32_t second = app_min_area_px(&app);
     CHECK(app_on_record(&app, &record, sizeof record, 2000) == 0);
@@ -82,6 +84,35 @@ static void test_rejected(void)
     CHECK(messages[APP_LINK_AUTOPILOT] == 0 && messages[APP_LINK_GROUND] == 0);
 }
 
+static int number_given(uint32_t frame_number)
+{
+    record.header.frame_number = frame_number;
+    memset(messages, 0, sizeof messages);
+    const int error = app_on_record(&app, &record, sizeof record, 1000);
+    CHECK(messages[APP_LINK_AUTOPILOT] == (error == 0 ? 1 : 0));
+    return error;
+}
+
+static void test_frames_go_forward(void)
+{
+    const struct scene scene = {.height_m = 0.9, .right_m = 0.1, .heading_deg = 70.0};
+
+    test_case("no frame twice, none older than the last");
+    start();
+    scene_clear(&record);
+    scene_paint_pad(&record, &scene);
+    CHECK(number_given(5U) == 0);
+    CHECK(number_given(5U) == RECORD_E_OLD);
+    CHECK(number_given(4U) == RECORD_E_OLD);
+    CHECK(number_given(9U) == 0);
+    CHECK(app.health[APP_HEALTH_RECORDS] == 2U && app.health[APP_HEALTH_RECORDS_REJECTED] == 0U);
+    test_case("frame numbers wrap");
+    start();
+    CHECK(number_given(0xFFFFFFFFU) == 0);
+    CHECK(number_given(2U) == 0);
+    CHECK(number_given(0xFFFFFFFFU) == RECORD_E_OLD);
+}
+
 static void test_full_wire(void)
 {
     const struct lidar_reading lidar = {.valid = true, .distance_mm = 1000, .age_us = 0};
@@ -113,4 +144,5 @@ void test_app(void)
     test_min_area();
     test_late_tick();
     test_rejected();
+    test_frames_go_forward();
 }

@@ -43,6 +43,7 @@ int main(void)
     test_byte_ring();
     test_camera();
     test_classify();
+    test_frame_queue();
     test_fusion();
     test_pad_pose();
     test_record();

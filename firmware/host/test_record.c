@@ -84,13 +84,15 @@ static void test_copy(void)
     test_case("copy out of the ring");
     memcpy(ring, &good, sizeof good);
     memset(&copy, 0, sizeof copy);
-    CHECK(record_copy_from_ring(&copy, ring) == (int)size_of(&good));
+    CHECK(record_copy_from_ring(&copy, ring, 1U) == (int)size_of(&good));
     CHECK(memcmp(&copy, &good, size_of(&good)) == 0);
+    CHECK(record_copy_from_ring(&copy, ring, 2U) == RECORD_E_TORN); // not the frame that was announced
     ring[15] = 0U; // being written
-    CHECK(record_copy_from_ring(&copy, ring) == RECORD_E_TORN);
+    CHECK(record_copy_from_ring(&copy, ring, 1U) == RECORD_E_TORN);
+    CHECK(record_copy_from_ring(&copy, ring, 0U) == RECORD_E_TORN);
     ring[15] = 7U;
     ring[7] = 1000U;
-    CHECK(record_copy_from_ring(&copy, ring) == RECORD_E_COUNT);
+    CHECK(record_copy_from_ring(&copy, ring, 7U) == RECORD_E_COUNT);
 }
 
 // Random damage: whatever passes the check must go through the rest without a

@@ -39,7 +39,7 @@ static int copy_with_write(uint32_t object_count, int at, uint32_t number)
     fences = 0;
     write_at = at;
     written_number = number;
-    return copy_while_hardware_writes(&torn, ring);
+    return copy_while_hardware_writes(&torn, ring, 7U);
 }
 
 void test_record_torn(void)
