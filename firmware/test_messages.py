@@ -188,7 +188,7 @@ def test_health(firmware: Firmware) -> None:
     firmware.tick(0)
     arrays = {message.name: message for message in firmware.take(GROUND) if message.get_type() == "DEBUG_FLOAT_ARRAY"}
     assert arrays["HEALTH"].array_id == 2
-    assert list(arrays["HEALTH"].data[:9]) == [1, 1, 1, 3, 5, 0, 100, 0, 0]
+    assert list(arrays["HEALTH"].data[:12]) == [1, 1, 1, 3, 5, 0, 100, 0, 0, 0, 0, 0]
 
 
 def test_lost_camera_is_told_once(firmware: Firmware) -> None:

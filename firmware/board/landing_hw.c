@@ -34,10 +34,10 @@ static void handle(void)
 {
     const uint32_t status = get(LANDING_REG_IRQ_STATUS_OFFSET);
 
-    // Acknowledged before the head is read: a frame that completes in between
-    // raises the interrupt again instead of being lost.
-    set(LANDING_REG_IRQ_STATUS_OFFSET, status);
     if ((status & LANDING_REG_IRQ_STATUS_FRAME_DONE_MASK) != 0U) {
+        // Acknowledged before the head is read: a frame that completes in between
+        // raises the interrupt again instead of being lost. The rest is not ours.
+        set(LANDING_REG_IRQ_STATUS_OFFSET, LANDING_REG_IRQ_STATUS_FRAME_DONE_MASK);
         // A frame that completes between the two reads makes a pair that the copy
         // refuses; its own interrupt brings the pair that fits.
         const uint32_t number = get(LANDING_REG_FRAME_NUMBER_OFFSET);
@@ -106,6 +106,22 @@ struct lidar_reading landing_hw_lidar(void)
     };
 
     return reading;
+}
+
+struct app_complaints landing_hw_complaints(void)
+{
+    const uint32_t status = get(LANDING_REG_IRQ_STATUS_OFFSET) &
+                            (LANDING_REG_IRQ_STATUS_AXI_ERROR_MASK | LANDING_REG_IRQ_STATUS_LIDAR_FAULT_MASK);
+    const struct app_complaints complaints = {
+        .write_error = (status & LANDING_REG_IRQ_STATUS_AXI_ERROR_MASK) != 0U,
+        .lidar_fault = (status & LANDING_REG_IRQ_STATUS_LIDAR_FAULT_MASK) != 0U,
+        .frames_unwritten = get(LANDING_REG_FRAMES_UNWRITTEN_OFFSET),
+    };
+
+    if (status != 0U) {
+        set(LANDING_REG_IRQ_STATUS_OFFSET, status);
+    }
+    return complaints;
 }
 
 bool landing_hw_frame_pending(void)

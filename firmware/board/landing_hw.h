@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "app.h"
 #include "fusion.h"
 #include "landing_regs.h"
 
@@ -23,6 +24,9 @@ void landing_hw_set_min_area(uint32_t pixels);
 uint64_t landing_hw_time_us(void);
 
 struct lidar_reading landing_hw_lidar(void);
+
+// Acknowledges what it reports.
+struct app_complaints landing_hw_complaints(void);
 
 bool landing_hw_frame_pending(void);
 

@@ -12,6 +12,7 @@
 #include "uart.h"
 
 #define READ_BYTES 64U
+#define COMPLAINTS_PERIOD_US 100000U
 
 static struct app app;
 static struct landing_record record;
@@ -63,14 +64,17 @@ int main(void)
     if (has_hardware) {
         landing_hw_start(app_min_area_px(&app));
     }
+    uint64_t next_complaints_us = 0;
     for (;;) {
-        const uint64_t now_us = has_hardware ? landing_hw_time_us() : timer_now_us();
+        uint64_t now_us = has_hardware ? landing_hw_time_us() : timer_now_us();
 
         if (landing_hw_frame_pending()) {
             const int size = landing_hw_take_frame(&record);
             if (size > 0) {
                 (void)app_on_record(&app, &record, (size_t)size, now_us);
                 landing_hw_set_min_area(app_min_area_px(&app));
+                // A record takes long enough to make TIMESYNC's answer late.
+                now_us = landing_hw_time_us();
             } else {
                 app_on_lost_record(&app);
             }
@@ -79,6 +83,11 @@ int main(void)
         read(APP_LINK_GROUND, now_us);
         if (has_hardware) {
             const struct lidar_reading lidar = landing_hw_lidar();
+            if (now_us >= next_complaints_us) {
+                const struct app_complaints complaints = landing_hw_complaints();
+                app_on_complaints(&app, &complaints, now_us);
+                next_complaints_us = now_us + COMPLAINTS_PERIOD_US;
+            }
             app_tick(&app, now_us, &lidar);
         } else {
             app_tick(&app, now_us, NULL);

@@ -9,6 +9,7 @@
 #define HEARTBEAT_PERIOD_US 1000000U
 #define DISTANCE_PERIOD_US 50000U
 #define CAMERA_LOST_US 2000000U
+#define COMPLAINT_PERIOD_US 10000000U
 #define PAD_ARRAY_ID 1U
 #define HEALTH_ARRAY_ID 2U
 
@@ -211,6 +212,29 @@ static void watch_camera(struct app *app, uint64_t now_us)
         say(app, MAVLINK_OUT_INFO, "Touchdown: frames again");
     }
     app->camera_lost = lost;
+}
+
+static void complain(struct app *app, enum app_complaint kind, uint64_t now_us, const char *text)
+{
+    if (due(&app->next_complaint_us[kind], now_us, COMPLAINT_PERIOD_US)) {
+        say(app, MAVLINK_OUT_WARNING, text);
+    }
+}
+
+void app_on_complaints(struct app *app, const struct app_complaints *complaints, uint64_t now_us)
+{
+    if (complaints->write_error) {
+        app->health[APP_HEALTH_WRITE_ERRORS]++;
+        complain(app, APP_COMPLAINT_WRITE, now_us, "Touchdown: memory refused a result");
+    }
+    if (complaints->lidar_fault) {
+        app->health[APP_HEALTH_LIDAR_FAULTS]++;
+        complain(app, APP_COMPLAINT_LIDAR, now_us, "Touchdown: LiDAR gives no valid reading");
+    }
+    if (complaints->frames_unwritten != app->health[APP_HEALTH_FRAMES_UNWRITTEN]) {
+        app->health[APP_HEALTH_FRAMES_UNWRITTEN] = complaints->frames_unwritten;
+        complain(app, APP_COMPLAINT_UNWRITTEN, now_us, "Touchdown: results not written in time");
+    }
 }
 
 void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lidar)

@@ -60,8 +60,20 @@ enum app_health_field {
     APP_HEALTH_MIN_AREA_PX,
     APP_HEALTH_DROPPED_AUTOPILOT, // messages that found no room on the wire
     APP_HEALTH_DROPPED_GROUND,
+    APP_HEALTH_FRAMES_UNWRITTEN, // frames that the hardware could not write
+    APP_HEALTH_WRITE_ERRORS,     // looks that found a refused memory write
+    APP_HEALTH_LIDAR_FAULTS,     // looks that found a LiDAR fault
     APP_HEALTH_FIELDS
 };
+
+// What the hardware complains of, since the last look.
+struct app_complaints {
+    bool write_error;
+    bool lidar_fault;
+    uint32_t frames_unwritten; // its count so far
+};
+
+enum app_complaint { APP_COMPLAINT_WRITE, APP_COMPLAINT_LIDAR, APP_COMPLAINT_UNWRITTEN, APP_COMPLAINTS };
 
 struct app {
     struct app_port port;
@@ -72,6 +84,7 @@ struct app {
     uint64_t next_distance_us;
     uint64_t last_record_us;
     uint32_t last_frame_number; // 0 = none yet
+    uint64_t next_complaint_us[APP_COMPLAINTS];
     bool camera_lost;
     uint32_t min_area_px;
     uint32_t health[APP_HEALTH_FIELDS];
@@ -89,6 +102,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
 
 // A record that was lost on its way here.
 void app_on_lost_record(struct app *app);
+
+// Counts in HEALTH; tells the ground station of each kind at once, then at most
+// every 10 s.
+void app_on_complaints(struct app *app, const struct app_complaints *complaints, uint64_t now_us);
 
 // What MIN_AREA should be from now on. Rises while records overflow and falls
 // while they are far from full, so that grass does not push the pad out.

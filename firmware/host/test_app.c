@@ -11,12 +11,17 @@ static struct app app;
 static struct landing_record record;
 static int messages[APP_LINKS];
 static bool wire_is_full;
+static char last_text[51];
 
 static bool count(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
     (void)context;
     CHECK(size >= 12U && bytes[0] == 0xFDU);
     messages[link]++;
+    if (bytes[7] == 253U) { // STATUSTEXT: severity, then text
+        memset(last_text, 0, sizeof last_text);
+        memcpy(last_text, bytes + 11, bytes[1] - 1U < 50U ? bytes[1] - 1U : 50U);
+    }
     return !wire_is_full;
 }
 
@@ -113,6 +118,34 @@ static void test_frames_go_forward(void)
     CHECK(number_given(0xFFFFFFFFU) == RECORD_E_OLD);
 }
 
+static void test_complaints(void)
+{
+    const struct app_complaints none = {.frames_unwritten = 0};
+    const struct app_complaints refused = {.write_error = true, .frames_unwritten = 1};
+    const struct app_complaints dark = {.lidar_fault = true, .frames_unwritten = 1};
+
+    test_case("what the hardware complains of reaches the ground, at a bounded rate");
+    start();
+    memset(messages, 0, sizeof messages);
+    app_on_complaints(&app, &none, 0);
+    CHECK(messages[APP_LINK_GROUND] == 0);
+    app_on_complaints(&app, &refused, 1000U);
+    CHECK(messages[APP_LINK_GROUND] == 2);
+    app_on_complaints(&app, &dark, 2000U);
+    CHECK(messages[APP_LINK_GROUND] == 3);
+    CHECK(strcmp(last_text, "Touchdown: LiDAR gives no valid reading") == 0);
+    for (uint64_t now_us = 100000U; now_us < 10000000U; now_us += 100000U) {
+        app_on_complaints(&app, &dark, now_us);
+    }
+    CHECK(messages[APP_LINK_GROUND] == 3);
+    app_on_complaints(&app, &dark, 10002000U);
+    CHECK(messages[APP_LINK_GROUND] == 4);
+    CHECK(messages[APP_LINK_AUTOPILOT] == 0);
+    CHECK(app.health[APP_HEALTH_FRAMES_UNWRITTEN] == 1U);
+    CHECK(app.health[APP_HEALTH_WRITE_ERRORS] == 1U);
+    CHECK(app.health[APP_HEALTH_LIDAR_FAULTS] == 101U);
+}
+
 static void test_full_wire(void)
 {
     const struct lidar_reading lidar = {.valid = true, .distance_mm = 1000, .age_us = 0};
@@ -145,4 +178,5 @@ void test_app(void)
     test_late_tick();
     test_rejected();
     test_frames_go_forward();
+    test_complaints();
 }
