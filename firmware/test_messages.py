@@ -172,13 +172,27 @@ def test_rates_from_power_up(firmware: Firmware) -> None:
 
 
 @pytest.mark.parametrize(
-    ("lidar_mm", "age_us"), [(None, 0), (1000, 200_001), (0, 0), (49, 0), (40_001, 0), (0xFFFFFFFF, 0)]
+    ("lidar_mm", "age_us"), [(1000, 200_001), (0, 0), (49, 0), (40_001, 0), (0xFFFFFFFF, 0)]
 )
 def test_unusable_distance_is_out_of_range(firmware: Firmware, lidar_mm: int | None, age_us: int) -> None:
     firmware.tick(0, lidar_mm=lidar_mm, age_us=age_us)
     message = only(firmware.take(AUTOPILOT), "DISTANCE_SENSOR")
     assert message.current_distance > message.max_distance
     assert message.signal_quality == 1
+
+
+def test_lidar_that_never_worked_is_silent(firmware: Firmware) -> None:
+    """An autopilot must see "no data" and refuse to arm; later, "out of range" is the truth."""
+
+    def distances(start_us: int, lidar_mm: int | None) -> list[tuple[int, int]]:
+        for now_us in range(start_us, start_us + 1_000_000, 10_000):
+            firmware.tick(now_us, lidar_mm=lidar_mm)
+        messages = [m for m in firmware.take(AUTOPILOT) if m.get_type() == "DISTANCE_SENSOR"]
+        return [(m.current_distance, m.signal_quality) for m in messages]
+
+    assert distances(0, None) == []
+    assert distances(1_000_000, 1000) == [(100, 100)] * 20
+    assert distances(2_000_000, None) == [(4001, 1)] * 20
 
 
 def test_health(firmware: Firmware) -> None:

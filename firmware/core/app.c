@@ -21,6 +21,9 @@
 #define MIN_AREA_GREATEST_PX 150U
 #define MIN_AREA_STEP_PX 10U
 #define OBJECTS_FEW 160U
+#define RECORD_FLAGS                                                                                                   \
+    (LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK | LANDING_HEADER_FLAGS_THRESHOLDS_STALE_MASK |                       \
+     LANDING_HEADER_FLAGS_OBJECTS_OVERFLOW_MASK | LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK)
 #define RING_WIDTH_M (2.0 * RING_OUTER_RADIUS_MM / 1000.0)
 
 static void send(struct app *app, enum app_link link, const uint8_t *bytes, size_t size)
@@ -73,7 +76,7 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     float values[APP_PAD_FIELDS] = {0.0F};
-    uint32_t flags = record->header.flags & 0xFU;
+    uint32_t flags = record->header.flags & RECORD_FLAGS;
 
     flags |= altitude->from_lidar ? APP_FLAG_ALTITUDE_LIDAR : 0U;
     flags |= altitude->from_pad ? APP_FLAG_ALTITUDE_PAD : 0U;
@@ -252,7 +255,9 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
             send_health(app, now_us);
         }
     }
-    if (lidar != NULL && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {
+    // "Out of range" would let an autopilot arm with a sensor that is not there.
+    app->lidar_worked = app->lidar_worked || (lidar != NULL && lidar->valid);
+    if (lidar != NULL && app->lidar_worked && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {
         send(app, APP_LINK_AUTOPILOT, bytes,
              mavlink_out_distance_sensor(&app->out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
                                          fusion_lidar_usable(lidar), lidar->distance_mm, bytes));

@@ -86,6 +86,7 @@ struct app {
     uint32_t last_frame_number; // 0 = none yet
     uint64_t next_complaint_us[APP_COMPLAINTS];
     bool camera_lost;
+    bool lidar_worked; // since power-up
     uint32_t min_area_px;
     uint32_t health[APP_HEALTH_FIELDS];
     struct classify_scratch scratch;
@@ -115,7 +116,8 @@ uint32_t app_min_area_px(const struct app *app);
 void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us);
 
 // To be called at least every 5 ms. `lidar` is NULL when there is no LiDAR
-// hardware: then nothing claims a distance and the autopilot sees "no data".
+// hardware: then, as with a LiDAR that has not given one reading since power-up,
+// nothing claims a distance and the autopilot sees "no data".
 void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lidar);
 
 #endif
