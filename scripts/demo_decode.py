@@ -21,6 +21,8 @@ PAD_FIELDS = (
     "frame_number",
     "object_count",
     "flags",
+    "error",
+    "size_altitude_m",
 )
 """The elements of the ground station's DEBUG_FLOAT_ARRAY; `firmware/core/app.h` owns the order."""
 
