@@ -137,18 +137,31 @@ bool uart_has_input(enum uart_id id)
     return !byte_ring_is_empty(&uarts[id].rx);
 }
 
+static bool send_polled(uintptr_t base, uint8_t byte)
+{
+    for (uint32_t polls = 0; polls < POLL_LIMIT; polls++) {
+        if ((register_read(base + STATUS) & STATUS_TX_FULL) == 0U) {
+            register_write(base + FIFO, byte);
+            return true;
+        }
+    }
+    return false;
+}
+
 void uart_write_polled(enum uart_id id, const uint8_t *bytes, size_t size)
 {
-    const uintptr_t base = uarts[id].base;
+    struct uart *uart = &uarts[id];
+    uint8_t byte;
 
-    for (size_t i = 0; i < size; i++) {
-        uint32_t polls = 0;
-        while ((register_read(base + STATUS) & STATUS_TX_FULL) != 0U) {
-            polls++;
-            if (polls == POLL_LIMIT) {
-                return;
-            }
+    // A message that is cut off would swallow the start of this one.
+    while (byte_ring_take(&uart->tx, &byte, 1U) == 1U) {
+        if (!send_polled(uart->base, byte)) {
+            return;
         }
-        register_write(base + FIFO, bytes[i]);
+    }
+    for (size_t i = 0; i < size; i++) {
+        if (!send_polled(uart->base, bytes[i])) {
+            return;
+        }
     }
 }

@@ -18,7 +18,8 @@ bool uart_write(enum uart_id id, const uint8_t *bytes, size_t size);
 size_t uart_read(enum uart_id id, uint8_t *bytes, size_t limit);
 bool uart_has_input(enum uart_id id);
 
-// For faults: without interrupts, past the ring. Gives up on a UART that takes nothing.
+// For faults: without interrupts; sends what is in the ring, then the bytes. Gives
+// up on a UART that takes nothing.
 void uart_write_polled(enum uart_id id, const uint8_t *bytes, size_t size);
 
 #endif

@@ -24,6 +24,7 @@ void test_pad_pose(void);
 void test_record(void);
 void test_record_torn(void);
 void test_shapes(void);
+void test_uart(void);
 void test_uart_baud(void);
 
 #endif

@@ -49,6 +49,7 @@ int main(void)
     test_record();
     test_record_torn();
     test_shapes();
+    test_uart();
     test_uart_baud();
     (void)printf("unit_tests: %d checks, %d failures\n", checks, failures);
     return failures == 0 ? 0 : 1;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The UART driver against a FIFO that is made up here.
+#include <stdint.h>
+#include <string.h>
+
+// In place of board/zynq.h and board/gic.h, which need the processor.
+#define TOUCHDOWN_ZYNQ_H
+#define TOUCHDOWN_GIC_H
+#define ZYNQ_UART0_BASE 0x0U
+#define ZYNQ_UART1_BASE 0x1000U
+#define ZYNQ_IRQ_UART0 0U
+#define ZYNQ_IRQ_UART1 1U
+
+static uint32_t register_read(uintptr_t address);
+static void register_write(uintptr_t address, uint32_t value);
+
+static void gic_enable(uint32_t interrupt, void (*handler)(void))
+{
+    (void)interrupt;
+    (void)handler;
+}
+
+static void interrupts_enable(void)
+{
+}
+
+static void interrupts_disable(void)
+{
+}
+
+#include "../board/uart.c"
+
+#include "test.h"
+
+#define FIFO_BYTES 64
+
+static uint8_t wire[8192];
+static size_t sent;
+static int room;
+static bool stuck;
+static uint32_t reads;
+
+// A full FIFO sends one byte between two looks at it, unless it is stuck.
+static uint32_t register_read(uintptr_t address)
+{
+    reads++;
+    if (address % 0x1000U != STATUS) {
+        return 0U;
+    }
+    if (room == 0) {
+        room = stuck ? 0 : 1;
+        return STATUS_TX_FULL | STATUS_RX_EMPTY;
+    }
+    return STATUS_RX_EMPTY;
+}
+
+static void register_write(uintptr_t address, uint32_t value)
+{
+    if (address == ZYNQ_UART1_BASE + FIFO) {
+        CHECK(room > 0 && sent < sizeof wire);
+        wire[sent++] = (uint8_t)value;
+        room--;
+    }
+}
+
+static void start(void)
+{
+    sent = 0;
+    room = FIFO_BYTES;
+    stuck = false;
+    reads = 0;
+    uart_init(UART_1, 57600U);
+}
+
+void test_uart(void)
+{
+    uint8_t message[200];
+
+    for (size_t i = 0; i < sizeof message; i++) {
+        message[i] = (uint8_t)i;
+    }
+    test_case("a last word waits for the messages before it, whole");
+    start();
+    CHECK(uart_write(UART_1, message, sizeof message));
+    CHECK(sent == FIFO_BYTES);
+    uart_write_polled(UART_1, (const uint8_t *)"last", 4U);
+    CHECK(sent == sizeof message + 4U);
+    CHECK(memcmp(wire, message, sizeof message) == 0);
+    CHECK(memcmp(wire + sizeof message, "last", 4U) == 0);
+
+    test_case("a UART that takes nothing does not hold the processor for long");
+    start();
+    CHECK(uart_write(UART_1, message, sizeof message));
+    stuck = true;
+    room = 0;
+    reads = 0;
+    uart_write_polled(UART_1, (const uint8_t *)"last", 4U);
+    CHECK(sent == FIFO_BYTES);
+    CHECK(reads <= POLL_LIMIT);
+}
