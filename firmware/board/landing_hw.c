@@ -81,7 +81,7 @@ void landing_hw_start(uint32_t min_area_px)
     set(LANDING_REG_IRQ_ENABLE_OFFSET, LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK);
     gic_enable(ZYNQ_IRQ_LANDING_CORE, handle);
     // The ring is memory, the registers are device: the zeros must be there first.
-    __asm__ volatile("dsb" ::: "memory");
+    finish_memory_accesses();
     set(LANDING_REG_CTRL_OFFSET, LANDING_REG_CTRL_DARK_IS_ONE_MASK | LANDING_REG_CTRL_ENABLE_MASK);
 }
 

@@ -29,4 +29,9 @@ static inline void register_write(uintptr_t address, uint32_t value)
     *(volatile uint32_t *)address = value;
 }
 
+static inline void finish_memory_accesses(void)
+{
+    __asm__ volatile("dsb" ::: "memory");
+}
+
 #endif

@@ -20,6 +20,7 @@ void test_camera(void);
 void test_classify(void);
 void test_frame_queue(void);
 void test_fusion(void);
+void test_landing_hw(void);
 void test_pad_pose(void);
 void test_record(void);
 void test_record_torn(void);

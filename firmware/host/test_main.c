@@ -45,6 +45,7 @@ int main(void)
     test_classify();
     test_frame_queue();
     test_fusion();
+    test_landing_hw();
     test_pad_pose();
     test_record();
     test_record_torn();
