@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from golden.chain import PAPER, Settings
+from golden.generated.landing_regs import HEADER_DTYPE
 from sim.compare_stages import Memory, StageMismatchError, check_run, compare, verilated
 from sim.cosim.frame_list import FrameList
 from sim.cosim.result import read_result
@@ -118,6 +119,21 @@ def test_a_wrong_record_is_found(finished_run: Path, place: int) -> None:
     path.write_bytes(bad)
     try:
         with pytest.raises(StageMismatchError, match=r"record, frame [12]"):
+            check_run(_frame_list(finished_run), finished_run, ALL_OBJECTS)
+    finally:
+        path.write_bytes(good)
+
+
+def test_a_reading_younger_than_the_camera_is_found(finished_run: Path) -> None:
+    """The LiDAR's first reading comes before the camera's first pixel, the next one long after the first frame."""
+    path = finished_run / "records.bin"
+    good = path.read_bytes()
+    bad = bytearray(good)
+    start = HEADER_DTYPE.fields["altitude_age_us"][1]
+    bad[start : start + 4] = bytes(4)
+    path.write_bytes(bad)
+    try:
+        with pytest.raises(StageMismatchError, match=r"record, frame 0: altitude_age_us is 0, expected"):
             check_run(_frame_list(finished_run), finished_run, ALL_OBJECTS)
     finally:
         path.write_bytes(good)
