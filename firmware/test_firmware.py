@@ -63,7 +63,7 @@ def test_ring_is_read_in_order() -> None:
 def qemu() -> str:
     path = shutil.which("qemu-system-arm")
     if path is None:
-        pytest.skip("qemu-system-arm is not installed; run make setup")
+        pytest.fail("qemu-system-arm is not installed; run make setup")
     return path
 
 
