@@ -32,30 +32,11 @@ module dilate3x3 #(
     output wire        frame_error
 );
 
-  localparam CONSTANT = 2;
-  localparam [0:0] OUTSIDE = 1'b0;
-
-  wire       advance;
-
-  wire       column_valid;
-  wire       column_sof;
-  wire       column_first;
-  wire       column_last;
-  wire [2:0] column;
-
-  wire       window_valid;
-  wire       window_sof;
-  wire       window_last;
-  wire [2:0] window;
-
-  window_rows #(
-      .TAPS      (3),
-      .DATA_WIDTH(1),
-      .BORDER    (CONSTANT),
-      .VALUE     (OUTSIDE),
+  morphology3x3 #(
+      .DILATE    (1),
       .MAX_WIDTH (MAX_WIDTH),
       .MAX_HEIGHT(MAX_HEIGHT)
-  ) rows (
+  ) morphology (
       .clk          (clk),
       .rst          (rst),
       .cfg_width    (cfg_width),
@@ -65,46 +46,12 @@ module dilate3x3 #(
       .s_axis_tready(s_axis_tready),
       .s_axis_tuser (s_axis_tuser),
       .s_axis_tlast (s_axis_tlast),
-      .advance      (advance),
-      .column_valid (column_valid),
-      .column_sof   (column_sof),
-      .column_first (column_first),
-      .column_last  (column_last),
-      .column       (column),
+      .m_axis_tdata (m_axis_tdata),
+      .m_axis_tvalid(m_axis_tvalid),
+      .m_axis_tready(m_axis_tready),
+      .m_axis_tuser (m_axis_tuser),
+      .m_axis_tlast (m_axis_tlast),
       .frame_error  (frame_error)
-  );
-
-  window_cols #(
-      .TAPS      (3),
-      .DATA_WIDTH(1),
-      .BORDER    (CONSTANT),
-      .VALUE     (OUTSIDE)
-  ) cols (
-      .clk         (clk),
-      .rst         (rst),
-      .advance     (advance),
-      .column_valid(column_valid),
-      .column_sof  (column_sof),
-      .column_first(column_first),
-      .column_last (column_last),
-      .column      (|column),
-      .window_valid(window_valid),
-      .window_sof  (window_sof),
-      .window_last (window_last),
-      .window      (window)
-  );
-
-  axis_skid #(
-      .WIDTH(3)
-  ) output_slice (
-      .clk      (clk),
-      .rst      (rst),
-      .s_payload({window_sof, window_last, |window}),
-      .s_valid  (window_valid),
-      .s_ready  (advance),
-      .m_payload({m_axis_tuser, m_axis_tlast, m_axis_tdata}),
-      .m_valid  (m_axis_tvalid),
-      .m_ready  (m_axis_tready)
   );
 
 endmodule

@@ -11,11 +11,11 @@ WIDTH = "ERROR_max_width_must_be_at_least_the_least_width_and_at_most_32768"
 HEIGHT = "ERROR_max_height_must_be_at_least_the_least_height_and_at_most_32768"
 
 
-def elaborate(core: str, name: str, value: int) -> subprocess.CompletedProcess[str]:
-    """Elaborate a core with one parameter set."""
+def elaborate(core: str, name: str, value: int, module: str = "") -> subprocess.CompletedProcess[str]:
+    """Elaborate a core, or one module of it, with one parameter set."""
     loaded = load_core(core)
-    parameter = f"-P{loaded.toplevel}.{name}={value}"
-    command = ["iverilog", "-g2001", "-t", "null", "-s", loaded.toplevel, parameter, *map(str, loaded.sources)]
+    top = module or loaded.toplevel
+    command = ["iverilog", "-g2001", "-t", "null", "-s", top, f"-P{top}.{name}={value}", *map(str, loaded.sources)]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
 
@@ -34,4 +34,11 @@ def test_height_limits(core: str, least: int) -> None:
     assert HEIGHT in elaborate(core, "MAX_HEIGHT", 32769).stderr
     for legal in (least, 32768):
         result = elaborate(core, "MAX_HEIGHT", legal)
+        assert result.returncode == 0, result.stderr
+
+
+def test_morphology_erodes_or_dilates() -> None:
+    assert "ERROR_dilate_must_be_0_or_1" in elaborate("erode3x3", "DILATE", 2, "morphology3x3").stderr
+    for legal in (0, 1):
+        result = elaborate("erode3x3", "DILATE", legal, "morphology3x3")
         assert result.returncode == 0, result.stderr
