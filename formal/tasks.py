@@ -10,6 +10,7 @@ from scripts.errors import UserError
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "formal"
 COMMON = FOLDER / "common"
+WRAPPERS = COMMON / "wrappers"
 MODES = ("prove", "bmc")
 # Cycles in which a fault must show in a proof by induction.
 FAULT_DEPTH = 24
@@ -34,6 +35,13 @@ class Task:
     def id(self) -> str:
         """Name in messages and folders, e.g. `axis_skid/order`."""
         return f"{self.core}/{self.name}"
+
+    @property
+    def properties(self) -> list[Path]:
+        """What is read after the RTL: what all share, what the core has and, if `top` is one, the shared wrapper."""
+        wrapper = WRAPPERS / f"{self.top}.sv"
+        own = sorted((FOLDER / self.core).glob("*.sv"))
+        return [*sorted(COMMON.glob("*.sv")), *own, *([wrapper] if wrapper.is_file() else [])]
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// median5x5: the markers of what leaves are those of frames, whatever comes in.
+// A filter (`CORE`): the markers of what leaves are those of frames, whatever comes in.
 `default_nettype none
 
-module median5x5_shape #(
+module filter_shape #(
+    parameter BITS   = 1,
     parameter WIDTH  = 2,
     parameter HEIGHT = 2
 ) (
     input wire clk,
     input wire rst,
-    input wire s_axis_tdata,
+    input wire [BITS-1:0] s_axis_tdata,
     input wire s_axis_tvalid,
     input wire s_axis_tuser,
     input wire s_axis_tlast,
@@ -18,9 +19,9 @@ module median5x5_shape #(
   wire [15:0] cfg_width = WIDTH;
   wire [15:0] cfg_height = HEIGHT;
   wire s_axis_tready, m_axis_tvalid, m_axis_tuser, m_axis_tlast, frame_error;
-  wire m_axis_tdata;
+  wire [BITS-1:0] m_axis_tdata;
 
-  median5x5 #(
+  `CORE #(
       .MAX_WIDTH (WIDTH),
       .MAX_HEIGHT(HEIGHT)
   ) dut (.*);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// erode3x3: 1 where all nine pixels around are 1, outside counts as 1, in every picture of a small frame, with every stall on both sides, frame after frame.
+// A filter of binary pixels (`CORE`): 1 where at least LEAST pixels of the square around are 1, in every picture of a
+// small frame, with every stall on both sides, frame after frame. REACH and RULE as in binary_window.
 `default_nettype none
 
-module erode3x3_frames #(
+module filter_frames #(
+    parameter REACH  = 1,
+    parameter RULE   = 0,
+    parameter LEAST  = 1,
     parameter WIDTH  = 3,
     parameter HEIGHT = 2
 ) (
@@ -19,7 +23,7 @@ module erode3x3_frames #(
   wire [15:0] cfg_height = HEIGHT;
   wire s_axis_tready, m_axis_tvalid, m_axis_tuser, m_axis_tlast, m_axis_tdata, frame_error;
 
-  erode3x3 #(
+  `CORE #(
       .MAX_WIDTH (WIDTH),
       .MAX_HEIGHT(HEIGHT)
   ) dut (.*);
@@ -53,13 +57,13 @@ module erode3x3_frames #(
   );
 
   binary_window #(
-      .REACH(1),
-      .RULE (2)
+      .REACH(REACH),
+      .RULE (RULE)
   ) window (.*);
 
   always @(posedge clk)
     if (past && !rst) begin
-      if (m_axis_tvalid) assert (m_axis_tdata == (ones == 5'd9));
+      if (m_axis_tvalid) assert (m_axis_tdata == (ones >= LEAST));
       assert (!frame_error);
     end
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// dilate3x3: the output keeps the stream rules whatever comes in: any markers, any sizes at any time, any stalls.
+// A filter (`CORE`): the output keeps the stream rules whatever comes in: any markers, any sizes at any time, any stalls.
 `default_nettype none
 
-module dilate3x3_stream #(
+module filter_stream #(
+    parameter BITS       = 1,
     parameter MAX_WIDTH  = 4,
     parameter MAX_HEIGHT = 4
 ) (
@@ -10,7 +11,7 @@ module dilate3x3_stream #(
     input wire rst,
     input wire [15:0] cfg_width,
     input wire [15:0] cfg_height,
-    input wire s_axis_tdata,
+    input wire [BITS-1:0] s_axis_tdata,
     input wire s_axis_tvalid,
     input wire s_axis_tuser,
     input wire s_axis_tlast,
@@ -18,9 +19,9 @@ module dilate3x3_stream #(
 );
 
   wire s_axis_tready, m_axis_tvalid, m_axis_tuser, m_axis_tlast, frame_error;
-  wire m_axis_tdata;
+  wire [BITS-1:0] m_axis_tdata;
 
-  dilate3x3 #(
+  `CORE #(
       .MAX_WIDTH (MAX_WIDTH),
       .MAX_HEIGHT(MAX_HEIGHT)
   ) dut (.*);
@@ -28,7 +29,7 @@ module dilate3x3_stream #(
   power_up start (.*);
 
   axis_rules #(
-      .WIDTH(3)
+      .WIDTH(BITS + 2)
   ) rules (
       .clk    (clk),
       .rst    (rst),
