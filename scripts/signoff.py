@@ -2,7 +2,8 @@
 """The table of what was proven of each core: `python -m scripts.signoff [--write]`.
 
 Each check leaves `build/signoff/<check>/<core>.json` through `leave`; this prints them as a table core x check. A check
-that was not run is 'missing'. Whatever failed or is missing makes the exit code 1.
+that was not run is 'missing', one whose files have changed since is 'stale'. Either, and whatever failed, makes the
+exit code 1.
 """
 
 import json
@@ -10,8 +11,11 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from formal.tasks import core_names as proven
 from scripts.errors import ArgumentParser, UserError, run_main
-from tb.common.cores import ROOT, core_names, load_core
+from scripts.signoff_inputs import digest, hash_of
+from tb.common.cores import ROOT, core_names
+from tb.common.lock import locked
 from tb.testplan import load_plan
 
 FOLDER = ROOT / "build/signoff"
@@ -20,8 +24,26 @@ SHORT = {"passed": "ok", "failed": "FAILED", "stale": "stale", "missing": "missi
 CHECKS = ("matrix", "exhaustive", "frames", "formal", "mutation", "coverage", "lint", "area")
 
 
-def leave(core: str, check: str, passed: bool, figure: str, detail: dict[str, object]) -> Path:
+def leave(
+    core: str,
+    check: str,
+    passed: bool,
+    figure: str,
+    detail: dict[str, object],
+    *,
+    incomplete: bool = False,
+    inputs: str | None = None,
+) -> Path:
     """Leave the result of one check of one core, in one step, so that a reader never finds half of it.
+
+    Args:
+        core: Name of the core.
+        check: Name of the check.
+        passed: Whether it passed.
+        figure: One line for the table.
+        detail: More, for a person.
+        incomplete: Nothing failed, but not everything was run.
+        inputs: Hash of what the result is about, if that was taken before a long run; default the files as they are.
 
     Raises:
         ValueError: The table has no such check.
@@ -29,34 +51,23 @@ def leave(core: str, check: str, passed: bool, figure: str, detail: dict[str, ob
     if check not in CHECKS:
         raise ValueError(f"unknown check '{check}'; choose one of: {', '.join(CHECKS)}")
     path = FOLDER / check / f"{core}.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    result = {"core": core, "check": check, "passed": passed, "figure": figure, "detail": detail}
-    partial = path.with_suffix(".partial")
-    partial.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-    partial.replace(path)
+    result = {"core": core, "check": check, "passed": passed, "incomplete": incomplete, "figure": figure}
+    write(path, {**result, "inputs": inputs or digest(core, check), "detail": detail})
     return path
 
 
-def sources_of(core: str) -> list[Path]:
-    """Files that make a core, and the table that names them; of a module that cores share, its one file."""
-    if core not in core_names():
-        return sorted((ROOT / "rtl").glob(f"*/{core}.v"))
-    return [ROOT / "rtl" / core / "core.toml", *load_core(core).sources]
-
-
-def is_stale(result: Path, core: str) -> bool:
-    """True if a source of the core has changed since the result was left."""
-    left = result.stat().st_mtime
-    return any(source.stat().st_mtime > left for source in sources_of(core))
+def write(path: Path, table: dict[str, object]) -> None:
+    """Write a JSON file in one step."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_suffix(".partial")
+    partial.write_text(json.dumps(table, indent=2) + "\n", encoding="utf-8")
+    partial.replace(path)
 
 
 def leave_part(core: str, check: str, part: str, passed: bool, count: int) -> None:
     """Leave one run of a check that has several, perhaps in several processes; `combine` sums them up."""
-    path = FOLDER / "parts" / check / core / f"{part}.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".partial")
-    partial.write_text(json.dumps({"passed": passed, "count": count}) + "\n", encoding="utf-8")
-    partial.replace(path)
+    part_path = FOLDER / "parts" / check / core / f"{part}.json"
+    write(part_path, {"passed": passed, "count": count, "inputs": digest(core, check)})
 
 
 def combine(core: str, check: str, expected: list[str], what: str) -> Path:
@@ -68,18 +79,22 @@ def combine(core: str, check: str, expected: list[str], what: str) -> Path:
         expected: Names of all its parts.
         what: Figure, with `{count}` for the sum of all counts.
     """
-    parts = {}
-    for name in expected:
-        path = FOLDER / "parts" / check / core / f"{name}.json"
-        if path.is_file() and not is_stale(path, core):
-            parts[name] = json.loads(path.read_text(encoding="utf-8"))
-    failed = [name for name, part in parts.items() if not part["passed"]]
-    figure = what.format(count=f"{sum(part['count'] for part in parts.values()):,}")
-    if len(parts) < len(expected):
-        figure += f" ({len(parts)} of {len(expected)} runs)"
-    complete = len(parts) == len(expected)
-    detail = {"failed": failed, "runs": parts, "incomplete": not complete}
-    return leave(core, check, not failed and complete, figure, detail)
+    # In turns: of two processes that leave the last parts, the later one has to see both.
+    with locked(FOLDER / "parts" / check / core) as folder:
+        inputs, parts = digest(core, check), {}
+        for name in expected:
+            path = folder / f"{name}.json"
+            part = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+            if part.get("inputs") == inputs:
+                parts[name] = part
+        failed = [name for name, part in parts.items() if not part["passed"]]
+        figure = what.format(count=f"{sum(part['count'] for part in parts.values()):,}")
+        complete = len(parts) == len(expected)
+        if not complete:
+            figure += f" ({len(parts)} of {len(expected)} runs)"
+        detail = {"failed": failed, "runs": parts}
+        incomplete = not complete and not failed
+        return leave(core, check, complete and not failed, figure, detail, incomplete=incomplete, inputs=inputs)
 
 
 @dataclass(frozen=True)
@@ -103,33 +118,43 @@ def read_cell(core: str, check: str, exempt: dict[str, str]) -> Cell:
         result = json.loads(path.read_text(encoding="utf-8"))
         named = (result["core"], result["check"])
         passed, figure = result["passed"], result["figure"]
-        incomplete = bool(result["detail"].get("incomplete")) and not result["detail"]["failed"]
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise UserError(f"{path.relative_to(ROOT)} is no result ({error!r}); run its check again.") from error
     if named != (core, check) or not isinstance(passed, bool):
         raise UserError(f"{path.relative_to(ROOT)} is the result of something else; run its check again.")
-    if is_stale(path, core):
+    # A result without a hash is of a time when none was kept.
+    if result.get("inputs") != digest(core, check):
         return Cell("stale", f"stale: {figure}")
     if passed:
         return Cell("passed", figure)
+    incomplete = result.get("incomplete") is True
     return Cell("missing", f"incomplete: {figure}") if incomplete else Cell("failed", f"FAILED: {figure}")
 
 
+def rows() -> dict[str, dict[str, str]]:
+    """Rows of the table: cores, then modules that cores share and that are proven alone; each with what is exempt."""
+    plan = load_plan()
+    alone = {check: "checked within the cores that use it" for check in CHECKS if check != "formal"}
+    shared = [name for name in proven() if name not in core_names()]
+    return {core: plan.get(core, {}).get("exempt", {}) for core in core_names()} | dict.fromkeys(shared, alone)
+
+
 def read_table() -> dict[str, dict[str, Cell]]:
-    """All cells: core, check. Modules that cores share have a row if a check left a result for them."""
-    exempt = {core: plan.get("exempt", {}) for core, plan in load_plan().items()}
-    shared = {path.stem for check in CHECKS for path in (FOLDER / check).glob("*.json")} - set(core_names())
-    unneeded = dict.fromkeys(CHECKS, "checked within the cores that use it")
-    exempt |= dict.fromkeys(shared, unneeded)
-    rows = [*core_names(), *sorted(shared)]
-    return {core: {check: read_cell(core, check, exempt.get(core, {})) for check in CHECKS} for core in rows}
+    """All cells: core, check."""
+    return {core: {check: read_cell(core, check, exempt) for check in CHECKS} for core, exempt in rows().items()}
+
+
+def state_of_inputs(cells: dict[str, dict[str, Cell]]) -> str:
+    """Hash of all files on which the table depends; a clone of the same revision has the same."""
+    places = [(core, check) for core, line in cells.items() for check, cell in line.items() if cell.state != "exempt"]
+    return hash_of(f"{core} {check} {digest(core, check)}" for core, check in places)[:12]
 
 
 def render(cells: dict[str, dict[str, Cell]]) -> str:
     """The table as Markdown: one row a core."""
-    rows = [["core", *CHECKS], ["---"] * (len(CHECKS) + 1)]
-    rows += [[core, *(cell.text for cell in line.values())] for core, line in cells.items()]
-    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    lines = [["core", *CHECKS], ["---"] * (len(CHECKS) + 1)]
+    lines += [[core, *(cell.text for cell in line.values())] for core, line in cells.items()]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def reasons() -> str:
@@ -146,6 +171,8 @@ PAGE_TEXT = """# Sign-off
 What was run on each core, and the figure it left. Made by `python -m scripts.signoff --write` from the results in
 `build/signoff/`; `make test-full` leaves all of them. Area is yosys' figure for xc7 with default parameters, not
 Vivado's.
+
+The results are about files whose hash is `{state}`; `make signoff` prints the hash of the files as they are.
 
 {table}
 
@@ -172,8 +199,11 @@ def main() -> int:
     states = [cell.state for line in cells.values() for cell in line.values()]
     counts = {state: states.count(state) for state in ("passed", "failed", "stale", "missing", "exempt")}
     print(", ".join(f"{count} {state}" for state, count in counts.items()))
+    inputs = state_of_inputs(cells)
+    print(f"hash of the files: {inputs}")
     if arguments.write:
-        PAGE.write_text(PAGE_TEXT.format(table=render(cells), reasons=reasons()), encoding="utf-8")
+        text = PAGE_TEXT.format(state=inputs, table=render(cells), reasons=reasons())
+        PAGE.write_text(text, encoding="utf-8")
     if counts["failed"] + counts["stale"] + counts["missing"]:
         print("touchdown: not signed off; run `make test-full`, mend what it finds, and look again.", file=sys.stderr)
         return 1

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a run of whole frames gave in one simulator, and what all runs together say of each core."""
 
-import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from scripts.signoff import leave
+from scripts.signoff_inputs import digest
 from sim.compare_stages import Report
 from sim.cosim.build import ROOT
-from sim.icarus.run import landing_core_sources
 
 CHECK = "frames"
 OUTPUT = ROOT / "build" / "frames"
@@ -70,11 +69,8 @@ class Tally:
 
 
 def digest_of_sources() -> str:
-    """Tells one state of the Verilog of landing_core from another."""
-    digest = hashlib.sha256()
-    for source in landing_core_sources():
-        digest.update(source.read_bytes())
-    return digest.hexdigest()
+    """Tells one state of landing_core, its models and the simulation from another."""
+    return digest(WHOLE, CHECK)
 
 
 def keep(simulator: str, tally: Tally, sources: str, output: Path) -> None:

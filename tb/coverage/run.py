@@ -9,6 +9,7 @@ from pathlib import Path
 
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.signoff import leave
+from scripts.signoff_inputs import digest
 from tb.common.cores import ROOT, Core, core_names, load_core
 from tb.common.runner import check_simulator, default_seed, run_config
 from tb.coverage.points import Point, folded, load_waivers, merge, missed, read_points, waive
@@ -60,7 +61,8 @@ def passes(hit: int, total: int) -> bool:
 
 
 def run(core: Core, reuse: bool) -> bool:
-    """Measure a core, print what it misses and leave its figures; return whether it passes."""
+    """Measure a core, print what it misses, leave its figures unless they are of an earlier run; whether it passes."""
+    inputs = digest(core.name, "coverage")
     counts = measure(core, reuse)
     texts = lines_of(core)
     stay, waived = waive(core.name, missed(counts), texts, load_waivers(WAIVERS))
@@ -81,7 +83,8 @@ def run(core: Core, reuse: bool) -> bool:
         "kinds": kinds,
         "missed": [f"{point.file}:{point.line} {point.kind} {point.what}" for point in stay],
     }
-    leave(core.name, "coverage", passed, figure, detail)
+    if not reuse:
+        leave(core.name, "coverage", passed, figure, detail, inputs=inputs)
     print(f"{core.name}: {figure}", flush=True)
     return passed
 
@@ -90,7 +93,7 @@ def main() -> int:
     """Entry point of `make coverage`."""
     parser = ArgumentParser(prog="make coverage", description=__doc__)
     parser.add_argument("--core", default="", help="one core; all when left out")
-    parser.add_argument("--reuse", action="store_true", help="read the records of an earlier run in place of a new one")
+    parser.add_argument("--reuse", action="store_true", help="read the records of an earlier run, and leave nothing")
     arguments = parser.parse_args()
     check_simulator("verilator")
     names = [arguments.core] if arguments.core else core_names()
