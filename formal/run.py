@@ -47,7 +47,8 @@ def main() -> int:
                 continue
             answer = run_task(task)
             how = "induction" if task.mode == "prove" else f"depth {task.depth}"
-            results.append(report(f"{task.id} ({how}, {answer.assertions} assertions)", answer, "PASS"))
+            what = "states reached" if task.mode == "cover" else "assertions"
+            results.append(report(f"{task.id} ({how}, {answer.assertions} {what})", answer, "PASS"))
             for fault in faults:
                 if arguments.faults and fault.task is task:
                     results.append(report(f"  found: {fault.id}", run_fault(fault), "FAIL"))

@@ -24,7 +24,7 @@ ANSWERS = {0: "PASS", 2: "FAIL", 4: "UNKNOWN", 8: "TIMEOUT"}
 
 @dataclass(frozen=True)
 class Answer:
-    """What the solver said: `PASS`, `FAIL`, `UNKNOWN`, `TIMEOUT` or `ERROR`, how many assertions, where the log is."""
+    """What the solver said: `PASS`, `FAIL`, `UNKNOWN`, `TIMEOUT` or `ERROR`; number of assertions or covers; the log."""
 
     status: str
     seconds: float
@@ -64,7 +64,7 @@ def script(task: Task, fault: Fault | None, rtl: list[Path]) -> str:
     lines += [f"hierarchy -check -top {task.top}", "proc -norom", "flatten", "opt_clean"]
     if task.clocks > 1:
         lines.append("clk2fflogic")
-    lines += [f"prep -flatten -top {task.top}", "select -assert-min 1 t:$check t:$assert", "[files]"]
+    lines += [f"prep -flatten -top {task.top}", "select -assert-min 1 t:$check t:$assert t:$cover", "[files]"]
     lines += [str(path) for path in [*rtl, *task.properties, *sorted((ROOT / "rtl/generated").glob("*.vh"))]]
     return "\n".join(lines) + "\n"
 
@@ -98,7 +98,7 @@ def solve(task: Task, fault: Fault | None = None) -> Answer:
     status = ANSWERS.get(code, "ERROR")
     if UNDRIVEN.search(log.read_text(encoding="utf-8", errors="replace")):
         status = "ERROR"
-    return Answer(status, seconds, count_assertions(folder / "work"), log)
+    return Answer(status, seconds, count_assertions(folder / "work", task.mode), log)
 
 
 def hash_text(text: str) -> int:
@@ -109,14 +109,15 @@ def hash_text(text: str) -> int:
     return value
 
 
-def count_assertions(work: Path) -> int:
-    """How many assertions the solver was given."""
+def count_assertions(work: Path, mode: str) -> int:
+    """How many assertions the solver was given, or how many states to reach."""
+    kind = "cover" if mode == "cover" else "assert"
     model = work / "model" / "design_smt2.smt2"
-    return len(re.findall(r"^; yosys-smt2-assert ", model.read_text(encoding="utf-8"), re.M)) if model.is_file() else 0
+    return len(re.findall(rf"^; yosys-smt2-{kind} ", model.read_text(encoding="utf-8"), re.M)) if model.is_file() else 0
 
 
 def complaint(log: Path) -> str:
     """The lines of a log that say why."""
-    words = ("Assert failed", "ERROR", "failed assertion", "has no driver", "implicitly declared", "DONE")
+    words = ("Assert failed", "Unreached", "ERROR", "failed assertion", "has no driver", "implicitly declared", "DONE")
     lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
     return "\n".join(line for line in lines if any(word in line for word in words))[:2000]
