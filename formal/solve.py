@@ -24,7 +24,7 @@ ANSWERS = {0: "PASS", 2: "FAIL", 4: "UNKNOWN", 8: "TIMEOUT"}
 
 @dataclass(frozen=True)
 class Answer:
-    """What the solver said: `PASS`, `FAIL`, `UNKNOWN`, `TIMEOUT` or `ERROR`; number of assertions or covers; the log."""
+    """What the solver said (`PASS`, `FAIL`, `UNKNOWN`, `TIMEOUT` or `ERROR`), of how many assertions or covers; log."""
 
     status: str
     seconds: float
