@@ -45,8 +45,8 @@ test: setup ## Everything that fits into 25 minutes on 2 cores
 	@$(PYTHON) -m pytest -n $(JOBS) -m "not full"
 
 .PHONY: test-full
-test-full: setup ## Everything, and the table of what each core passed
-	@status=0; $(PYTHON) -m pytest -n $(JOBS) || status=1; $(PYTHON) -m scripts.signoff || status=1; exit $$status
+test-full: setup ## Everything, a line an item, and the table of what each core passed: [PHOTOS="folder folder"]
+	@status=0; $(PYTHON) -m pytest -v -n $(JOBS) --dist worksteal || status=1; $(PYTHON) -m scripts.signoff || status=1; exit $$status
 
 .PHONY: signoff
 signoff: setup ## The table of what each core passed, from the results of the last runs
