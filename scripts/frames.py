@@ -16,12 +16,15 @@ import cv2
 import numpy as np
 
 from scripts.errors import UserError
+from scripts.frames_decode import decode_picture
 from sim.world.clip import demo_clip, images
 from sim.world.pose import Truth
 
 WIDTH = 1280
 HEIGHT = 720
 CLIP_FRAMES = 6
+ESTIMATE_OFF_BY = 0.05
+"""Some containers tell their length in time only, of which sound has its share; so a little less is no fault."""
 PICTURE_SUFFIXES = (".png", ".jpg", ".jpeg")
 
 
@@ -77,7 +80,9 @@ def open_frames(source: str | None, limit: int | None = None) -> FrameSet:
         pictures = sorted((file for file in path.iterdir() if _is_picture(file)), key=_natural)
         if not pictures:
             raise UserError(f"{source} holds no PNG or JPEG file; give a folder that does, or a video.")
-        return _pictures(f"{len(pictures[:limit])} pictures of {path.name}", pictures[:limit], path / "altitude.csv")
+        some = pictures[:limit]
+        title = f"{len(some)} picture{'' if len(some) == 1 else 's'} of {path.name}"
+        return _pictures(title, some, path / "altitude.csv")
     if _is_picture(path):
         return _pictures(path.name, [path], path.parent / "altitude.csv")
     return _video(path, limit)
@@ -112,6 +117,12 @@ def _video(path: Path, limit: int | None) -> FrameSet:
     count = sum(1 for _ in islice(_decode(path), limit))
     if count == 0:
         raise UserError(f"{path} holds no frame that can be decoded; give a video that OpenCV can play.")
+    promised = _promised(path) if limit is None or count < limit else count
+    if count < promised - 1 - promised * ESTIMATE_OFF_BY:
+        raise UserError(
+            f"{path} is cut off or damaged: {count} of its {promised} frames can be decoded; copy it again, "
+            f"or take the beginning by `python -m scripts.demo --limit {count}`."
+        )
     return FrameSet(
         title=f"video {path.name}",
         names=tuple(f"{index:04d}" for index in range(count)),
@@ -120,15 +131,6 @@ def _video(path: Path, limit: int | None) -> FrameSet:
         altitude_csv=path.with_suffix(".csv"),
         open=lambda: islice(_decode(path), count),
     )
-
-
-def _is_whole(data: bytes) -> bool:
-    """False for an empty file, and for a JPEG or PNG without its end: OpenCV would show the part that is there."""
-    if data.startswith(b"\xff\xd8"):
-        return data.rfind(b"\xff\xd9") > data.rfind(b"\xff\xda")
-    if data.startswith(b"\x89PNG"):
-        return b"IEND" in data[-12:]
-    return bool(data)
 
 
 def read_picture(path: Path) -> np.ndarray:
@@ -141,7 +143,7 @@ def read_picture(path: Path) -> np.ndarray:
         data = path.read_bytes()
     except OSError as error:
         raise UserError(f"{path} cannot be read: {error.strerror}; check the file.") from error
-    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR) if _is_whole(data) else None
+    picture = decode_picture(data)
     if picture is None:
         raise UserError(f"{path} cannot be decoded; replace it by a whole PNG or JPEG file, or take it out.")
     return _as_rgb(picture, str(path))
@@ -163,6 +165,14 @@ def _decode(path: Path) -> Iterator[np.ndarray]:
             index += 1
     finally:
         video.release()
+
+
+def _promised(path: Path) -> int:
+    """How many frames the container says it has; 0 or less if it does not say."""
+    video = cv2.VideoCapture(str(path))
+    promised = int(video.get(cv2.CAP_PROP_FRAME_COUNT))
+    video.release()
+    return promised
 
 
 def _as_rgb(picture: np.ndarray, what: str) -> np.ndarray:

@@ -53,7 +53,10 @@ def _read(path: Path) -> dict[str, float]:
             rows = list(csv.reader(file, skipinitialspace=True))
     except FileNotFoundError as error:
         raise UserError(f"{path} does not exist; give ALTITUDE as metres or as the path of a CSV file.") from error
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise UserError(f"{path} cannot be read: {reason}; give ALTITUDE as metres or as a CSV file.") from error
+    except (UnicodeDecodeError, csv.Error) as error:
         raise UserError(f"{path} cannot be read as CSV ({error}); give frame,altitude_m lines in UTF-8.") from error
     if not rows or not set(_COLUMNS) <= set(rows[0]):
         raise UserError(f"{path} does not start with a line that names the columns frame and altitude_m; add it.")

@@ -2,6 +2,8 @@
 """Every way in which frames and altitudes can be given, and every way in which that can go wrong."""
 
 import itertools
+import os
+import re
 from pathlib import Path
 
 import cv2
@@ -63,6 +65,8 @@ def test_folder_in_natural_order_and_in_rgb(tmp_path: Path) -> None:
     picture(tmp_path / "later.jpg", level=120)
     (tmp_path / "notes.txt").write_text("not a picture")
     frames = open_frames(str(tmp_path))
+    assert frames.title == f"3 pictures of {tmp_path.name}"
+    assert open_frames(str(tmp_path), 1).title == f"1 picture of {tmp_path.name}"
     assert frames.names == ("image_9.PNG", "image_10.png", "later.jpg")
     assert not frames.sequential
     assert [int(image[0, 0, 0]) for image in frames.open()][:2] == [109, 110]
@@ -128,6 +132,56 @@ def test_cut_off_picture(tmp_path: Path, capfd: pytest.CaptureFixture, kind: str
     assert capfd.readouterr().err == ""
 
 
+@pytest.mark.parametrize(
+    ("kind", "damage"),
+    [("jpg", b"\xff\xd3"), ("jpg", b"\xff\xd9"), ("png", b"damage")],
+    ids=["restart", "early end", "png"],
+)
+def test_picture_damaged_within(
+    tmp_path: Path, capfd: pytest.CaptureFixture, grain: np.ndarray, kind: str, damage: bytes
+) -> None:
+    """Both ends are there."""
+    path = tmp_path / f"whole.{kind}"
+    assert cv2.imwrite(str(path), grain)
+    whole = path.read_bytes()
+    assert len(open_frames(str(tmp_path)).names) == 1
+    middle = len(whole) // 2
+    (tmp_path / f"hit.{kind}").write_bytes(whole[:middle] + damage + whole[middle + len(damage) :])
+    with pytest.raises(UserError) as caught:
+        open_frames(str(tmp_path))
+    assert f"hit.{kind} cannot be decoded" in sentence(caught)
+    assert capfd.readouterr().err == ""
+
+
+def test_what_the_libraries_say_is_silent_only_meanwhile(tmp_path: Path, capfd: pytest.CaptureFixture) -> None:
+    open_frames(str(picture(tmp_path / "one.jpg")))
+    os.write(2, b"still here")
+    assert capfd.readouterr().err == "still here"
+
+
+@pytest.fixture
+def grain() -> np.ndarray:
+    """A picture with something in it everywhere, so that damage meets data."""
+    small = np.random.default_rng(1).integers(0, 255, (72, 128, 3), np.uint8)
+    return cv2.resize(small, (1280, 720))
+
+
+@pytest.mark.parametrize(("name", "fourcc"), [("clip.avi", "MJPG"), ("clip.mkv", "mp4v")])
+def test_video_that_is_cut_off(tmp_path: Path, grain: np.ndarray, name: str, fourcc: str) -> None:
+    path = tmp_path / name
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*fourcc), 30, (1280, 720))
+    for index in range(12):
+        writer.write(np.roll(grain, 8 * index, 1))
+    writer.release()
+    assert len(open_frames(str(path)).names) == 12
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    with pytest.raises(UserError) as caught:
+        open_frames(str(path))
+    whole = re.search(rf"{name} is cut off or damaged: (\d+) of its 12 frames", sentence(caught))
+    assert whole is not None
+    assert len(open_frames(str(path), int(whole[1])).names) == int(whole[1])
+
+
 def test_file_that_is_no_video(tmp_path: Path) -> None:
     (tmp_path / "clip.mp4").write_bytes(b"not a video")
     with pytest.raises(UserError) as caught:
@@ -183,6 +237,12 @@ def test_altitude_file_missing(pair: FrameSet, tmp_path: Path) -> None:
     with pytest.raises(UserError) as caught:
         altitudes_m(pair, str(tmp_path / "none.csv"))
     assert "none.csv does not exist" in sentence(caught)
+
+
+def test_altitude_file_is_a_folder(pair: FrameSet, tmp_path: Path) -> None:
+    with pytest.raises(UserError) as caught:
+        altitudes_m(pair, str(tmp_path))
+    assert sentence(caught) == f"{tmp_path} cannot be read: is a directory; give ALTITUDE as metres or as a CSV file."
 
 
 @pytest.mark.parametrize("value", ["nan", "-1", "0", "inf", "40.1"])
