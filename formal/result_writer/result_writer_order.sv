@@ -100,7 +100,7 @@ module result_writer_order #(
   reg published;  // ... and its frame number was sent
   reg [31:0] base;
   reg [1:0] objects;
-  reg [31:0] number, sampled_number;
+  reg [31:0] number;
   wire take = s_axis_tvalid && s_axis_tready;
   wire no = m_axi_bvalid && m_axi_bresp[1];
 
@@ -109,13 +109,12 @@ module result_writer_order #(
 
   always @(posedge clk) begin
     known <= 1'b1;
-    if (take && s_axis_tuser) sampled_number <= frame_number;
+    if (take && s_axis_tlast) number <= frame_number;
     // Also while the frame number of the next one is set to 0.
     if (frame_done || axi_error) open <= 1'b0;
     if (zeroes) begin
       {open, headed, failed, published} <= 4'b1000;
       base    <= m_axi_awaddr - 32'd56;
-      number  <= sampled_number;
       objects <= 2'd0;
     end
     if (heads) headed <= 1'b1;

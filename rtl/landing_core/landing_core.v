@@ -10,7 +10,8 @@
 // record of that frame. FRAME_SIZE also counts at the camera, a few clocks earlier: a frame in which it changes is cut
 // off and counted like any malformed one.
 // A record describes one frame: number, start time and thresholds are held from the moment in which ccl takes its
-// first pixel. By then the next frame has not begun to leave video_in, if frames have at least 16 lines.
+// first pixel (frame_facts), however long memory lets the record wait. By then the next frame has not begun to leave
+// video_in, if frames have at least 16 lines.
 // Limits: frames of at least 16 x 16 pixels; a smaller FRAME_SIZE gives wrong frame numbers, never wrong pixels.
 
 `default_nettype none
@@ -276,184 +277,42 @@ module landing_core #(
         end
     end
 
-    // ---- Pixels to binary shapes. video_in cuts malformed frames off and counts them; what the later cores report
-    // of them (frame_error) is the same fault seen again.
+    // ---- Pixels to binary shapes.
 
-    wire [7:0]  gray_tdata, smooth_tdata, checked_tdata;
-    wire        binary_tdata, eroded_tdata, median_tdata, dilated_tdata;
-    wire [31:0] stats_tdata;
-    wire [511:0] objects_tdata;
-    wire gray_tvalid, gray_tready, gray_tuser, gray_tlast;
-    wire smooth_tvalid, smooth_tready, smooth_tuser, smooth_tlast;
-    wire checked_tvalid, checked_tready, checked_tuser, checked_tlast;
-    wire stats_tvalid, stats_tready, stats_tuser, stats_tlast;
-    wire binary_tvalid, binary_tready, binary_tuser, binary_tlast;
-    wire eroded_tvalid, eroded_tready, eroded_tuser, eroded_tlast;
-    wire median_tvalid, median_tready, median_tuser, median_tlast;
-    wire dilated_tvalid, dilated_tready, dilated_tuser, dilated_tlast;
-    wire objects_tvalid, objects_tready, objects_tuser, objects_tlast;
-    wire thresholds_missing, unused_stale;
-    wire [6:0] unused_errors;
+    wire        dilated_tdata;
+    wire        dilated_tvalid, dilated_tready, dilated_tuser, dilated_tlast;
+    wire        thresholds_missing;
 
-    rgb2gray to_gray (
-        .clk(clk),
-        .rst(rst),
-        .s_axis_tdata(rgb_tdata),
-        .s_axis_tvalid(rgb_tvalid),
-        .s_axis_tready(rgb_tready),
-        .s_axis_tuser(rgb_tuser),
-        .s_axis_tlast(rgb_tlast),
-        .m_axis_tdata(gray_tdata),
-        .m_axis_tvalid(gray_tvalid),
-        .m_axis_tready(gray_tready),
-        .m_axis_tuser(gray_tuser),
-        .m_axis_tlast(gray_tlast)
-    );
-
-    gaussian5x5 #(
+    pixel_chain #(
         .MAX_WIDTH(MAX_WIDTH),
         .MAX_HEIGHT(MAX_HEIGHT)
-    ) smoothing (
-        .clk(clk),
-        .rst(rst),
-        .cfg_width(width_reg),
-        .cfg_height(height_reg),
-        .s_axis_tdata(gray_tdata),
-        .s_axis_tvalid(gray_tvalid),
-        .s_axis_tready(gray_tready),
-        .s_axis_tuser(gray_tuser),
-        .s_axis_tlast(gray_tlast),
-        .m_axis_tdata(smooth_tdata),
-        .m_axis_tvalid(smooth_tvalid),
-        .m_axis_tready(smooth_tready),
-        .m_axis_tuser(smooth_tuser),
-        .m_axis_tlast(smooth_tlast),
-        .frame_error(unused_errors[0])
-    );
-
-    threshold_stats #(
-        .MAX_WIDTH(MAX_WIDTH),
-        .MAX_HEIGHT(MAX_HEIGHT)
-    ) statistics (
+    ) chain (
         .clk(clk),
         .rst(rst),
         .cfg_width(width_reg),
         .cfg_height(height_reg),
         .cfg_factor(factor_reg),
-        .s_axis_tdata(smooth_tdata),
-        .s_axis_tvalid(smooth_tvalid),
-        .s_axis_tready(smooth_tready),
-        .s_axis_tuser(smooth_tuser),
-        .s_axis_tlast(smooth_tlast),
-        .m_axis_tdata(checked_tdata),
-        .m_axis_tvalid(checked_tvalid),
-        .m_axis_tready(checked_tready),
-        .m_axis_tuser(checked_tuser),
-        .m_axis_tlast(checked_tlast),
-        .m_stat_axis_tdata(stats_tdata),
-        .m_stat_axis_tvalid(stats_tvalid),
-        .m_stat_axis_tready(stats_tready),
-        .m_stat_axis_tuser(stats_tuser),
-        .m_stat_axis_tlast(stats_tlast),
-        .frame_error(unused_errors[1])
-    );
-
-    threshold_apply #(
-        .MAX_WIDTH(MAX_WIDTH),
-        .MAX_HEIGHT(MAX_HEIGHT)
-    ) decision (
-        .clk(clk),
-        .rst(rst),
-        .cfg_width(width_reg),
-        .cfg_height(height_reg),
         .cfg_dark_is_one(dark_is_one_reg),
-        .s_axis_tdata(checked_tdata),
-        .s_axis_tvalid(checked_tvalid),
-        .s_axis_tready(checked_tready),
-        .s_axis_tuser(checked_tuser),
-        .s_axis_tlast(checked_tlast),
-        .s_stat_axis_tdata(stats_tdata),
-        .s_stat_axis_tvalid(stats_tvalid),
-        .s_stat_axis_tready(stats_tready),
-        .s_stat_axis_tuser(stats_tuser),
-        .s_stat_axis_tlast(stats_tlast),
-        .m_axis_tdata(binary_tdata),
-        .m_axis_tvalid(binary_tvalid),
-        .m_axis_tready(binary_tready),
-        .m_axis_tuser(binary_tuser),
-        .m_axis_tlast(binary_tlast),
-        .thresholds_missing(thresholds_missing),
-        .thresholds_stale(unused_stale),
-        .frame_error(unused_errors[2])
-    );
-
-    erode3x3 #(
-        .MAX_WIDTH(MAX_WIDTH),
-        .MAX_HEIGHT(MAX_HEIGHT)
-    ) erosion (
-        .clk(clk),
-        .rst(rst),
-        .cfg_width(width_reg),
-        .cfg_height(height_reg),
-        .s_axis_tdata(binary_tdata),
-        .s_axis_tvalid(binary_tvalid),
-        .s_axis_tready(binary_tready),
-        .s_axis_tuser(binary_tuser),
-        .s_axis_tlast(binary_tlast),
-        .m_axis_tdata(eroded_tdata),
-        .m_axis_tvalid(eroded_tvalid),
-        .m_axis_tready(eroded_tready),
-        .m_axis_tuser(eroded_tuser),
-        .m_axis_tlast(eroded_tlast),
-        .frame_error(unused_errors[3])
-    );
-
-    median5x5 #(
-        .MAX_WIDTH(MAX_WIDTH),
-        .MAX_HEIGHT(MAX_HEIGHT)
-    ) majority (
-        .clk(clk),
-        .rst(rst),
-        .cfg_width(width_reg),
-        .cfg_height(height_reg),
-        .s_axis_tdata(eroded_tdata),
-        .s_axis_tvalid(eroded_tvalid),
-        .s_axis_tready(eroded_tready),
-        .s_axis_tuser(eroded_tuser),
-        .s_axis_tlast(eroded_tlast),
-        .m_axis_tdata(median_tdata),
-        .m_axis_tvalid(median_tvalid),
-        .m_axis_tready(median_tready),
-        .m_axis_tuser(median_tuser),
-        .m_axis_tlast(median_tlast),
-        .frame_error(unused_errors[4])
-    );
-
-    dilate3x3 #(
-        .MAX_WIDTH(MAX_WIDTH),
-        .MAX_HEIGHT(MAX_HEIGHT)
-    ) dilation (
-        .clk(clk),
-        .rst(rst),
-        .cfg_width(width_reg),
-        .cfg_height(height_reg),
-        .s_axis_tdata(median_tdata),
-        .s_axis_tvalid(median_tvalid),
-        .s_axis_tready(median_tready),
-        .s_axis_tuser(median_tuser),
-        .s_axis_tlast(median_tlast),
+        .s_axis_tdata(rgb_tdata),
+        .s_axis_tvalid(rgb_tvalid),
+        .s_axis_tready(rgb_tready),
+        .s_axis_tuser(rgb_tuser),
+        .s_axis_tlast(rgb_tlast),
         .m_axis_tdata(dilated_tdata),
         .m_axis_tvalid(dilated_tvalid),
         .m_axis_tready(dilated_tready),
         .m_axis_tuser(dilated_tuser),
         .m_axis_tlast(dilated_tlast),
-        .frame_error(unused_errors[5])
+        .thresholds_missing(thresholds_missing)
     );
 
     // ---- Shapes to records.
 
-    wire frame_started;
-    wire last_pixel;
+    wire [511:0] objects_tdata;
+    wire         objects_tvalid, objects_tready, objects_tuser, objects_tlast;
+    wire         frame_started;
+    wire         last_pixel;
+    wire         unused_error;
 
     ccl #(
         .MAX_WIDTH(MAX_WIDTH),
@@ -475,43 +334,45 @@ module landing_core #(
         .m_axis_tready(objects_tready),
         .m_axis_tuser(objects_tuser),
         .m_axis_tlast(objects_tlast),
-        .frame_error(unused_errors[6]),
+        .frame_error(unused_error),
         .frame_started(frame_started),
         .last_pixel(last_pixel)
     );
 
-    // What the record says of the frame that ccl works on.
-    reg [31:0] frame_number_reg;
-    reg [63:0] frame_start_us_reg;
-    reg [15:0] frame_width_reg;
-    reg [15:0] frame_height_reg;
-    reg [8:0]  frame_factor_reg;
-    reg [31:0] frame_min_area_reg;
-    reg        frame_missing_reg;
-    reg        frame_stale_reg;
-    reg [31:0] scan_time_us_reg;
+    wire [31:0] frame_number;
+    wire [63:0] frame_start_us;
+    wire [15:0] frame_width;
+    wire [15:0] frame_height;
+    wire [8:0]  frame_factor;
+    wire [31:0] frame_min_area;
+    wire        frame_missing;
+    wire        frame_stale;
+    wire [31:0] frame_scan_time_us;
 
-    // Thresholds come from the last complete frame. threshold_apply would say whether they are stale, but does not see
-    // frames that end before it; the camera numbers them all.
-    reg [31:0] complete_number_reg;
-    wire       stale = !thresholds_missing && camera_frame_number != complete_number_reg + 32'd1;
-
-    always @(posedge clk) begin
-        if (frame_started) begin
-            frame_number_reg <= camera_frame_number;
-            frame_start_us_reg <= camera_frame_start_us;
-            frame_width_reg <= width_reg;
-            frame_height_reg <= height_reg;
-            frame_factor_reg <= factor_reg;
-            frame_min_area_reg <= min_area_reg;
-            frame_missing_reg <= thresholds_missing;
-            frame_stale_reg <= stale;
-        end
-        if (last_pixel) begin
-            scan_time_us_reg <= time_us_reg[31:0] - frame_start_us_reg[31:0];
-            complete_number_reg <= frame_number_reg;
-        end
-    end
+    frame_facts facts (
+        .clk(clk),
+        .rst(rst),
+        .frame_started(frame_started),
+        .last_pixel(last_pixel),
+        .pop(objects_tvalid && objects_tready && objects_tlast),
+        .time_us(time_us_reg),
+        .frame_number(camera_frame_number),
+        .frame_start_us(camera_frame_start_us),
+        .width(width_reg),
+        .height(height_reg),
+        .factor(factor_reg),
+        .min_area(min_area_reg),
+        .thresholds_missing(thresholds_missing),
+        .queued_number(frame_number),
+        .queued_start_us(frame_start_us),
+        .queued_width(frame_width),
+        .queued_height(frame_height),
+        .queued_factor(frame_factor),
+        .queued_min_area(frame_min_area),
+        .queued_missing(frame_missing),
+        .queued_stale(frame_stale),
+        .queued_scan_time_us(frame_scan_time_us)
+    );
 
     result_writer #(
         .MAX_OBJECTS(MAX_OBJECTS)
@@ -519,15 +380,15 @@ module landing_core #(
         .clk(clk),
         .rst(rst),
         .ring_base(ring_base),
-        .frame_number(frame_number_reg),
-        .frame_start_us(frame_start_us_reg),
-        .frame_width(frame_width_reg),
-        .frame_height(frame_height_reg),
-        .threshold_factor(frame_factor_reg),
-        .min_area(frame_min_area_reg),
-        .thresholds_missing(frame_missing_reg),
-        .thresholds_stale(frame_stale_reg),
-        .scan_time_us(scan_time_us_reg),
+        .frame_number(frame_number),
+        .frame_start_us(frame_start_us),
+        .frame_width(frame_width),
+        .frame_height(frame_height),
+        .threshold_factor(frame_factor),
+        .min_area(frame_min_area),
+        .thresholds_missing(frame_missing),
+        .thresholds_stale(frame_stale),
+        .scan_time_us(frame_scan_time_us),
         .altitude_mm(lidar_distance_mm),
         .altitude_age_us(lidar_age_us),
         .altitude_valid(lidar_valid),

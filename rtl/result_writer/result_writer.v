@@ -10,9 +10,8 @@
 // Throughput: one object in 9 clocks, as long as MAX_OUTSTANDING bursts cover the latency of the memory.
 // AXI: write channels only, 64 bit, INCR, at most 8 beats, 64-byte aligned objects (no burst crosses 4 KiB), no IDs,
 // all strobes set: AXI4, and AXI3 when awlen[7:4] is left open. bready is always 1.
-// Sampled with the first beat of a frame: ring_base, frame_*, threshold_factor, min_area, thresholds_*.
-// Sampled with the trailer: scan_time_us. Sampled when the header is written: altitude_*, frames_malformed and
-// frames_overflow.
+// Sampled with the first beat of a frame: ring_base. Sampled with the trailer: frame_*, threshold_factor, min_area,
+// thresholds_*, scan_time_us. Sampled when the header is written: altitude_*, frames_malformed and frames_overflow.
 // Beats before a first beat (tuser) are dropped. A first beat before the trailer abandons the frame; its buffer is
 // used again. After a write error (SLVERR, DECERR) nothing more of the frame is written; axi_error pulses at its end.
 // Overflow: objects beyond MAX_OBJECTS are taken and counted in the header. frames_unwritten wraps.
@@ -263,7 +262,17 @@ module result_writer #(
             offset_reg <= offset_reg + OBJECT_BYTES;
         end
         if (take_object && !fits) objects_dropped_reg <= objects_dropped_reg + 32'd1;
-        if (take && s_axis_tlast) scan_time_us_reg <= scan_time_us;
+        if (take && s_axis_tlast) begin
+            frame_number_reg <= frame_number;
+            frame_start_us_reg <= frame_start_us;
+            frame_width_reg <= frame_width;
+            frame_height_reg <= frame_height;
+            threshold_factor_reg <= threshold_factor;
+            min_area_reg <= min_area;
+            thresholds_missing_reg <= thresholds_missing;
+            thresholds_stale_reg <= thresholds_stale;
+            scan_time_us_reg <= scan_time_us;
+        end
 
         case (state_reg)
             DRAIN: if (quiet) begin
@@ -308,14 +317,6 @@ module result_writer #(
             objects_dropped_reg <= 32'd0;
             offset_reg <= OBJECTS_OFFSET;
             base_reg <= {ring_base[31:12], 12'd0} + index_reg * STRIDE;
-            frame_number_reg <= frame_number;
-            frame_start_us_reg <= frame_start_us;
-            frame_width_reg <= frame_width;
-            frame_height_reg <= frame_height;
-            threshold_factor_reg <= threshold_factor;
-            min_area_reg <= min_area;
-            thresholds_missing_reg <= thresholds_missing;
-            thresholds_stale_reg <= thresholds_stale;
             if (state_reg == OBJECTS) unwritten_reg <= unwritten_reg + 32'd1;
         end
 

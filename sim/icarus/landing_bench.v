@@ -198,11 +198,11 @@ module landing_bench #(
   ) gray_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata (dut.gray_tdata),
-      .tvalid(dut.gray_tvalid),
-      .tready(dut.gray_tready),
-      .tuser (dut.gray_tuser),
-      .tlast (dut.gray_tlast)
+      .tdata (dut.chain.gray_tdata),
+      .tvalid(dut.chain.gray_tvalid),
+      .tready(dut.chain.gray_tready),
+      .tuser (dut.chain.gray_tuser),
+      .tlast (dut.chain.gray_tlast)
   );
 
   stage_tap #(
@@ -211,11 +211,11 @@ module landing_bench #(
   ) smooth_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata (dut.smooth_tdata),
-      .tvalid(dut.smooth_tvalid),
-      .tready(dut.smooth_tready),
-      .tuser (dut.smooth_tuser),
-      .tlast (dut.smooth_tlast)
+      .tdata (dut.chain.smooth_tdata),
+      .tvalid(dut.chain.smooth_tvalid),
+      .tready(dut.chain.smooth_tready),
+      .tuser (dut.chain.smooth_tuser),
+      .tlast (dut.chain.smooth_tlast)
   );
 
   stage_tap #(
@@ -224,11 +224,11 @@ module landing_bench #(
   ) checked_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata (dut.checked_tdata),
-      .tvalid(dut.checked_tvalid),
-      .tready(dut.checked_tready),
-      .tuser (dut.checked_tuser),
-      .tlast (dut.checked_tlast)
+      .tdata (dut.chain.checked_tdata),
+      .tvalid(dut.chain.checked_tvalid),
+      .tready(dut.chain.checked_tready),
+      .tuser (dut.chain.checked_tuser),
+      .tlast (dut.chain.checked_tlast)
   );
 
   stage_tap #(
@@ -237,11 +237,11 @@ module landing_bench #(
   ) stats_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata (dut.stats_tdata),
-      .tvalid(dut.stats_tvalid),
-      .tready(dut.stats_tready),
-      .tuser (dut.stats_tuser),
-      .tlast (dut.stats_tlast)
+      .tdata (dut.chain.stats_tdata),
+      .tvalid(dut.chain.stats_tvalid),
+      .tready(dut.chain.stats_tready),
+      .tuser (dut.chain.stats_tuser),
+      .tlast (dut.chain.stats_tlast)
   );
 
   stage_tap #(
@@ -250,11 +250,11 @@ module landing_bench #(
   ) binary_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata ({7'd0, dut.binary_tdata}),
-      .tvalid(dut.binary_tvalid),
-      .tready(dut.binary_tready),
-      .tuser (dut.binary_tuser),
-      .tlast (dut.binary_tlast)
+      .tdata ({7'd0, dut.chain.binary_tdata}),
+      .tvalid(dut.chain.binary_tvalid),
+      .tready(dut.chain.binary_tready),
+      .tuser (dut.chain.binary_tuser),
+      .tlast (dut.chain.binary_tlast)
   );
 
   stage_tap #(
@@ -263,11 +263,11 @@ module landing_bench #(
   ) eroded_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata ({7'd0, dut.eroded_tdata}),
-      .tvalid(dut.eroded_tvalid),
-      .tready(dut.eroded_tready),
-      .tuser (dut.eroded_tuser),
-      .tlast (dut.eroded_tlast)
+      .tdata ({7'd0, dut.chain.eroded_tdata}),
+      .tvalid(dut.chain.eroded_tvalid),
+      .tready(dut.chain.eroded_tready),
+      .tuser (dut.chain.eroded_tuser),
+      .tlast (dut.chain.eroded_tlast)
   );
 
   stage_tap #(
@@ -276,11 +276,11 @@ module landing_bench #(
   ) median_tap (
       .clk   (clk),
       .rst   (rst),
-      .tdata ({7'd0, dut.median_tdata}),
-      .tvalid(dut.median_tvalid),
-      .tready(dut.median_tready),
-      .tuser (dut.median_tuser),
-      .tlast (dut.median_tlast)
+      .tdata ({7'd0, dut.chain.median_tdata}),
+      .tvalid(dut.chain.median_tvalid),
+      .tready(dut.chain.median_tready),
+      .tuser (dut.chain.median_tuser),
+      .tlast (dut.chain.median_tlast)
   );
 
   stage_tap #(

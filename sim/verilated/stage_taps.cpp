@@ -52,18 +52,18 @@ void StageTaps::beat(size_t stage, const void* payload, bool first, bool last) {
 }
 
 void StageTaps::sample(const Vlanding_core___024root& root) {
-#define TAP(stage, name)                                                                            \
-    if (root.landing_core__DOT__##name##_tvalid && root.landing_core__DOT__##name##_tready)         \
-        beat(stage, &root.landing_core__DOT__##name##_tdata, root.landing_core__DOT__##name##_tuser, \
+#define TAP(stage, name)                                                                                            \
+    if (root.landing_core__DOT__##name##_tvalid && root.landing_core__DOT__##name##_tready)                         \
+        beat(stage, &root.landing_core__DOT__##name##_tdata, root.landing_core__DOT__##name##_tuser,                \
              root.landing_core__DOT__##name##_tlast)
     TAP(RGB, rgb);
-    TAP(GRAY, gray);
-    TAP(SMOOTH, smooth);
-    TAP(CHECKED, checked);
-    TAP(STATS, stats);
-    TAP(BINARY, binary);
-    TAP(ERODED, eroded);
-    TAP(MEDIAN, median);
+    TAP(GRAY, chain__DOT__gray);
+    TAP(SMOOTH, chain__DOT__smooth);
+    TAP(CHECKED, chain__DOT__checked);
+    TAP(STATS, chain__DOT__stats);
+    TAP(BINARY, chain__DOT__binary);
+    TAP(ERODED, chain__DOT__eroded);
+    TAP(MEDIAN, chain__DOT__median);
     TAP(DILATED, dilated);
     TAP(OBJECTS, objects);
 #undef TAP

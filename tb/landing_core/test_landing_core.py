@@ -5,234 +5,42 @@ sim/test_stages.py compares the streams themselves, and frames of full size.
 """
 
 from dataclasses import replace
-from random import Random, getrandbits
 
 import cocotb
 import numpy as np
-from cocotb.clock import Clock
 from cocotb.handle import HierarchyObject
 from cocotb.triggers import ClockCycles, RisingEdge
-from cocotb.types import LogicArray
 from cocotb.utils import get_sim_time
-from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
+from cocotbext.axi import AxiResp
 
-from golden.chain import Settings, run_chain
 from golden.generated import landing_regs as regs
-from golden.result_writer import record
-from tb.common.axi_memory import AxiMemory
-from tb.common.run import four_state, parameter, where
-from tb.common.stream import CLOCK_NS, StreamMonitor
-from tb.video_in.tb_video_in import Blanking, Raw, model, spoil
+from tb.common.run import where
+from tb.common.stream import CLOCK_NS, split_frames
+from tb.landing_core.tb_landing_core import (
+    BLANKING,
+    CLK_PER_US,
+    MAX_HEIGHT,
+    MAX_OBJECTS,
+    MAX_WIDTH,
+    PIX_NS,
+    Bench,
+    Expected,
+    boxes,
+    lines_of,
+    picture,
+)
+from tb.video_in.tb_video_in import Raw, model, spoil
 
-MAX_WIDTH, MAX_HEIGHT = parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720)
-MAX_OBJECTS = parameter("MAX_OBJECTS", 256)
-CLK_PER_US = parameter("CLK_PER_US", 100)
-PIX_NS = 13.468
-STREAMS = ("rgb", "gray", "smooth", "checked", "stats", "binary", "eroded", "median", "dilated", "objects")
-# Lines as far apart as 720p60 has them in proportion; enough between frames to flush the borders.
-BLANKING = Blanking(line=14, front=150, sync=60, back=250)
-# From docs/cores: a pixel's way through video_in, after 2 more of pix_clk, to where the time is taken; the filter of
-# the LiDAR's pin.
-VIDEO_IN_CLOCKS = 3
-LIDAR_CLOCKS = 103
 LIMIT_US = 5000  # of simulated time; no test comes near
 
-
-class Bench:
-    """Both clocks, camera, memory, CPU, LiDAR pin, and a checker on every stream inside."""
-
-    def __init__(self, dut: HierarchyObject) -> None:
-        self.dut, self.rng = dut, Random(getrandbits(64))
-        self.base = Random(getrandbits(64)).randrange(0, (1 << 32) - regs.RING_BUFFERS * regs.RING_STRIDE_BYTES, 4096)
-        self.settings = Settings(min_area=3)
-        self.size = (MAX_WIDTH, MAX_HEIGHT)
-        self.last_pixel_ns = 0.0
-        self.released_ns = 0.0
-        self.first_pixels_ns: list[float] = []
-        """Of each frame since the reset, when the first pixel was at the pins."""
-        self.pulse_end = 0
-        """Clock in which the LiDAR's pin fell last."""
-        dut.rst.value = 1
-        dut.lidar_in.value = 0
-        dut.vid_hsync.value = 0
-        self._drive(0, 0, 0)
-        cocotb.start_soon(Clock(dut.clk, CLOCK_NS, unit="ns").start())
-        cocotb.start_soon(Clock(dut.pix_clk, round(PIX_NS / 2, 3) * 2, unit="ns").start())
-        self.cpu = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "s_axil"), dut.clk, dut.rst)
-        self.memory = AxiMemory(dut, "m_axi", dut.clk, dut.rst, Random(self.rng.getrandbits(64)))
-        self.monitors = {name: StreamMonitor(dut, name, dut.clk, dut.rst) for name in STREAMS}
-
-    async def reset(self) -> None:
-        """Reset and configure."""
-        self.dut.rst.value = 1
-        await ClockCycles(self.dut.clk, 8)
-        self.dut.rst.value = 0
-        self.released_ns = get_sim_time("ns")
-        self.first_pixels_ns.clear()
-        await ClockCycles(self.dut.clk, 8)
-        await self.write(regs.RING_BASE_OFFSET, self.base)
-        await self.write(regs.IRQ_ENABLE_OFFSET, regs.IRQ_STATUS_FRAME_DONE_MASK)
-        await self.configure(self.settings, self.size)
-
-    async def configure(self, settings: Settings, size: tuple[int, int]) -> None:
-        """Write the registers that a frame depends on."""
-        self.settings, self.size = settings, size
-        await self.write(regs.FRAME_SIZE_OFFSET, size[1] << 16 | size[0])
-        await self.write(regs.THRESHOLD_OFFSET, settings.factor)
-        await self.write(regs.MIN_AREA_OFFSET, settings.min_area)
-        dark = settings.dark_is_one << regs.CTRL_DARK_IS_ONE_SHIFT
-        zeros = settings.label_zeros << regs.CTRL_LABEL_ZEROS_SHIFT
-        await self.write(regs.CTRL_OFFSET, dark | zeros | regs.CTRL_ENABLE_MASK)
-        await ClockCycles(self.dut.clk, 40)
-
-    async def read(self, offset: int) -> int:
-        """Read one register."""
-        return int.from_bytes((await self.cpu.read(offset, 4)).data, "little")
-
-    async def write(self, offset: int, value: int) -> None:
-        """Write one register."""
-        await self.cpu.write(offset, value.to_bytes(4, "little"))
-
-    async def play(self, raw: Raw) -> None:
-        """Drive the camera."""
-        edge = RisingEdge(self.dut.pix_clk)
-        await edge
-        begins = False
-        for data, de, vsync in zip(raw.data, raw.de, raw.vsync, strict=True):
-            self._drive(data, de, vsync)
-            await edge
-            begins = begins or vsync == raw.active
-            if de:
-                self.last_pixel_ns = get_sim_time("ns")
-                if begins:
-                    self.first_pixels_ns.append(self.last_pixel_ns)
-                begins = False
-        self._drive(0, 0, raw.vsync[-1])
-
-    async def lidar_pulse(self, length_us: int) -> None:
-        """Drive the LiDAR's pin high for some time."""
-        self.dut.lidar_in.value = 1
-        await ClockCycles(self.dut.clk, length_us * CLK_PER_US)
-        self.dut.lidar_in.value = 0
-        self.pulse_end = self.memory.cycle
-
-    def start_us(self, number: int) -> float:
-        """When video_in handed out the first pixel of a frame, in microseconds since reset."""
-        clocks = (self.first_pixels_ns[number - 1] - self.released_ns + 2 * PIX_NS) / CLOCK_NS
-        return (clocks + VIDEO_IN_CLOCKS) / CLK_PER_US
-
-    def age_us(self, buffer_address: int) -> float:
-        """How old the last reading was when the header of a buffer was written last."""
-        written = [burst.cycle for burst in self.memory.bursts if burst.address == buffer_address]
-        return (written[-1] - self.pulse_end - LIDAR_CLOCKS) / CLK_PER_US
-
-    async def settle(self) -> None:
-        """Wait until the last record is written."""
-        await ClockCycles(self.dut.clk, 1500)
-
-    def _drive(self, data: int, de: int, vsync: int) -> None:
-        idle = LogicArray("X" * 24) if four_state() else self.rng.getrandbits(24)
-        self.dut.vid_data.value = data if de else idle
-        self.dut.vid_de.value, self.dut.vid_vsync.value = de, vsync
-
-    async def check_ring(self, published: list["Expected"], unwritten: int = 0) -> None:
-        """Assert that the ring holds the newest of `published`, and that the registers say so."""
-        newest = published[-regs.RING_BUFFERS :]
-        for index, expected in enumerate(published):
-            if expected in newest:
-                expected.check(self, index % regs.RING_BUFFERS)
-        head = await self.read(regs.RING_HEAD_OFFSET)
-        last = (len(published) - 1) % regs.RING_BUFFERS
-        assert head == (regs.RING_HEAD_VALID_MASK | last if published else 0), f"RING_HEAD 0x{head:08x}; {where()}"
-        number = await self.read(regs.FRAME_NUMBER_OFFSET)
-        wanted = published[-1].number if published else 0
-        assert number == wanted, f"FRAME_NUMBER {number}, expected {wanted}; {where()}"
-        lost = await self.read(regs.FRAMES_UNWRITTEN_OFFSET)
-        assert lost == unwritten, f"FRAMES_UNWRITTEN {lost}, expected {unwritten}; {where()}"
-
-
-class Expected:
-    """A frame that must give a record; `before` is the last complete one before it."""
-
-    def __init__(
-        self,
-        number: int,
-        rgb: np.ndarray,
-        before: "Expected | None",
-        settings: Settings,
-        *,
-        stale: bool = False,
-        malformed: int = 0,
-        altitude_mm: int | None = None,
-    ) -> None:
-        self.number, self.settings = number, settings
-        self.stages = run_chain(rgb, before.stages.stats if before else None, settings)
-        self.values = {
-            "frame_number": number,
-            "frame_size_width": rgb.shape[1],
-            "frame_size_height": rgb.shape[0],
-            "threshold_factor": settings.factor,
-            "min_area": settings.min_area,
-            "thresholds_missing": int(before is None),
-            "thresholds_stale": int(stale),
-            "frames_malformed": malformed,
-            "altitude_valid": int(altitude_mm is not None),
-        }
-        self.altitude_mm = altitude_mm
-
-    def check(self, bench: Bench, buffer: int) -> None:
-        """Assert that a buffer holds this record, byte for byte; times and altitude within bounds."""
-        address = bench.base + buffer * regs.RING_STRIDE_BYTES
-        size = regs.HEADER_DTYPE.itemsize + len(self.stages.objects[:MAX_OBJECTS]) * regs.OBJECT_DTYPE.itemsize
-        got = bench.memory.read(address, size)
-        header = np.frombuffer(got, regs.HEADER_DTYPE, 1)[0]
-        name = f"record of frame {self.number} in buffer {buffer}"
-        height, width = self.stages.gray.shape
-        camera_us = ((width + BLANKING.line) * height - BLANKING.line) * PIX_NS / CLOCK_NS / CLK_PER_US
-        flush_us = (7 * width + 200) / CLK_PER_US
-        scan_us = int(header["scan_time_us"])
-        assert camera_us - 1 < scan_us < camera_us + flush_us, f"{name}: scan_time_us {scan_us}; {where()}"
-        if self.altitude_mm is not None:
-            assert abs(int(header["altitude_mm"]) - self.altitude_mm) <= 1, f"{name}: {header['altitude_mm']} mm"
-            age, wanted_age = int(header["altitude_age_us"]), bench.age_us(address)
-            assert age > 0 and abs(age - wanted_age) <= 2, (
-                f"{name}: altitude_age_us {age}, expected {wanted_age:.1f}; {where()}"
-            )
-        # The counter has only whole microseconds: on average it is half of one behind.
-        start, wanted_start = int(header["start_time_us"]), bench.start_us(self.number)
-        assert abs(start + 0.5 - wanted_start) <= 1, (
-            f"{name}: start_time_us {start}, expected {wanted_start:.1f}; {where()}"
-        )
-        given = ("start_time_us", "scan_time_us", "altitude_mm", "altitude_age_us")
-        values = {**self.values, **{key: int(header[key]) for key in given}}
-        wanted = record(values, self.stages.objects, MAX_OBJECTS)
-        if got == wanted:
-            return
-        expected = np.frombuffer(wanted, regs.HEADER_DTYPE, 1)[0]
-        for key in regs.HEADER_DTYPE.names:
-            assert header[key] == expected[key], f"{name}: {key} {header[key]}, expected {expected[key]}; {where()}"
-        start = regs.HEADER_DTYPE.itemsize
-        objects = (np.frombuffer(data, regs.OBJECT_DTYPE, offset=start) for data in (wanted, got))
-        for index, (one, other) in enumerate(zip(*objects, strict=True)):
-            assert one == other, f"{name}, object {index}: expected {one}, got {other}; {where()}"
-
-
-def picture(rng: Random, width: int, height: int) -> np.ndarray:
-    """Return RGB with boxes of both polarities on noise; now and then with more objects than fit."""
-    noise = np.random.default_rng(rng.getrandbits(64))
-    if rng.random() < 0.2:
-        return noise.integers(0, 256, (height, width, 3), dtype=np.uint8)
-    rgb = noise.integers(150, 190, (height, width, 3), dtype=np.uint8)
-    for _ in range(rng.randint(0, 8)):
-        x, y = rng.randrange(width), rng.randrange(height)
-        rgb[y : y + rng.randint(3, 12), x : x + rng.randint(3, 12)] = rng.choice((20, 250))
-    return rgb
-
-
-def lines_of(rgb: np.ndarray) -> list[list[int]]:
-    """Return the words that the camera sends for a picture."""
-    words = rgb.astype(int) @ np.array([1 << 16, 1 << 8, 1])
-    return words.tolist()
+# How many times a frame takes the memory sleeps (a whole frame and parts of two others, or more), the greatest number
+# of shapes a frame, its size, whether that must cost frames: what waits fits into the queue of ccl, stalls ccl within a
+# frame, or fills that queue with trailers alone.
+SLEEPS = {
+    "one_frame": (2, 6, (MAX_WIDTH, MAX_HEIGHT), False),
+    "several_frames": (4, 30, (MAX_WIDTH, MAX_HEIGHT), True),
+    "many_empty_frames": (34, 0, (16, 16), True),
+}
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
@@ -345,6 +153,52 @@ async def frames_become_records(dut: HierarchyObject) -> None:
         await bench.check_ring(published)
         await bench.write(regs.IRQ_STATUS_OFFSET, regs.IRQ_STATUS_FRAME_DONE_MASK)
         await ClockCycles(dut.clk, 4)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+@cocotb.parametrize(sleep=list(SLEEPS))
+async def each_record_tells_of_its_own_frame(dut: HierarchyObject, sleep: str) -> None:
+    """The memory takes nothing for some frames: those that got through are told of rightly, the others are counted."""
+    asleep, shapes, size, drops = SLEEPS[sleep]
+    bench = Bench(dut)
+    await bench.reset()
+    await bench.configure(bench.settings, size)
+    rgbs = [boxes(bench.rng, *size, bench.rng.randint(shapes // 2, shapes)) for _ in range(asleep + 4)]
+    raw = Raw()
+    for rgb in rgbs:
+        raw.frame(lines_of(rgb), BLANKING)
+    raw.blank(2)
+    frame_clocks = round(len(raw.data) / len(rgbs) * PIX_NS / CLOCK_NS)
+    camera = cocotb.start_soon(bench.play(raw))
+    # It falls asleep at any time of the second frame.
+    await ClockCycles(dut.clk, frame_clocks + bench.rng.randrange(frame_clocks))
+    bench.memory.stall(1.0)
+    await ClockCycles(dut.clk, asleep * frame_clocks)
+    bench.memory.stall(0.0)
+    await camera
+    await bench.settle()
+
+    seen = await bench.read(regs.FRAMES_SEEN_OFFSET)
+    assert seen == len(rgbs), f"FRAMES_SEEN {seen}, expected {len(rgbs)}; {where()}"
+    dropped = await bench.read(regs.FRAMES_OVERFLOW_OFFSET)
+    assert (dropped > 0) == drops, f"{dropped} frames were dropped; {where()}"
+    numbers = [record.number for record in bench.records]
+    assert numbers == sorted(set(numbers)), f"records of the frames {numbers}; {where()}"
+    assert len(numbers) == seen - dropped, f"records of the frames {numbers} of {seen}, {dropped} dropped; {where()}"
+    assert numbers[-1] == seen, f"the newest record is of frame {numbers[-1]}, expected {seen}; {where()}"
+    # Frames that end too early for ccl count as dropped, and leave no record.
+    frames = [beats for beats in split_frames(bench.monitors["dilated"].taken) if len(beats) == size[0] * size[1]]
+    published: list[Expected] = []
+    for index, (record, beats) in enumerate(zip(bench.records, frames, strict=True)):
+        before = published[-1] if published else None
+        stale = before is not None and before.number != record.number - 1
+        expected = Expected(record.number, rgbs[record.number - 1], before, bench.settings, stale=stale)
+        expected.waited(beats[-1].cycle, least_overflow=record.number - 1 - index, most_overflow=dropped)
+        expected.check(bench, record)
+        published.append(expected)
+    lost = await bench.read(regs.FRAMES_UNWRITTEN_OFFSET)
+    assert lost <= dropped, f"FRAMES_UNWRITTEN {lost}, {dropped} dropped; {where()}"
+    await bench.check_ring(published, unwritten=lost)
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")

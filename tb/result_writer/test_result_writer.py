@@ -26,7 +26,7 @@ LIMIT_US = 2000  # of simulated time; no test comes near
 HEADER_LEN = 6  # awlen of the 56 bytes before it
 
 # Port, bits, member of the header; grouped by when the writer samples them.
-AT_FIRST_BEAT = (
+AT_TRAILER = (
     ("frame_number", 32, "frame_number"),
     ("frame_start_us", 64, "start_time_us"),
     ("frame_width", 16, "frame_size_width"),
@@ -35,8 +35,8 @@ AT_FIRST_BEAT = (
     ("min_area", 32, "min_area"),
     ("thresholds_missing", 1, "thresholds_missing"),
     ("thresholds_stale", 1, "thresholds_stale"),
+    ("scan_time_us", 32, "scan_time_us"),
 )
-AT_TRAILER = (("scan_time_us", 32, "scan_time_us"),)
 AT_HEADER = (
     ("altitude_mm", 32, "altitude_mm"),
     ("altitude_age_us", 32, "altitude_age_us"),
@@ -44,7 +44,7 @@ AT_HEADER = (
     ("frames_malformed", 32, "frames_malformed"),
     ("frames_overflow", 32, "frames_overflow"),
 )
-ALL_PORTS = AT_FIRST_BEAT + AT_TRAILER + AT_HEADER
+ALL_PORTS = AT_TRAILER + AT_HEADER
 
 # (idle fraction of the objects, stalled fraction of AW and W, latency range of the responses)
 WEATHER = {
@@ -185,9 +185,7 @@ class Bench:
         )
 
     def _offer(self, frame: Frame, beat: Beat) -> None:
-        self._scramble(AT_FIRST_BEAT + AT_TRAILER)
-        if beat.user:
-            self._drive(AT_FIRST_BEAT, frame)
+        self._scramble(AT_TRAILER)
         if beat.last:
             self._drive(AT_TRAILER, frame)
 
