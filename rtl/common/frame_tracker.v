@@ -39,17 +39,8 @@ module frame_tracker #(
     output reg         frame_error   // one cycle: a frame was cut off, or beats follow a complete one
 );
 
-  // Bits of an index below count ($clog2 came only with Verilog-2005).
-  function integer index_bits;
-    input integer count;
-    begin
-      index_bits = 1;
-      while ((1 << index_bits) < count) index_bits = index_bits + 1;
-    end
-  endfunction
-
-  localparam X_BITS = index_bits(MAX_WIDTH);
-  localparam Y_BITS = index_bits(MAX_HEIGHT);
+  localparam X_BITS = (MAX_WIDTH > 1) ? $clog2(MAX_WIDTH) : 1;
+  localparam Y_BITS = (MAX_HEIGHT > 1) ? $clog2(MAX_HEIGHT) : 1;
 
   generate
     if (MIN_WIDTH < 1 || MAX_WIDTH < MIN_WIDTH || MAX_WIDTH > 32768) begin : g_width

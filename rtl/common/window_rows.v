@@ -48,17 +48,8 @@ module window_rows #(
     output wire                       frame_error
 );
 
-  // Bits of an index below count ($clog2 came only with Verilog-2005).
-  function integer index_bits;
-    input integer count;
-    begin
-      index_bits = 1;
-      while ((1 << index_bits) < count) index_bits = index_bits + 1;
-    end
-  endfunction
-
   localparam REACH = TAPS / 2;
-  localparam X_BITS = index_bits(MAX_WIDTH);
+  localparam X_BITS = (MAX_WIDTH > 1) ? $clog2(MAX_WIDTH) : 1;
   localparam REFLECT_101 = 1;
   localparam MIN_SIZE = (BORDER == REFLECT_101) ? REACH + 1 : 1;
   localparam MIN_WIDTH = (MIN_SIZE < 2) ? 2 : MIN_SIZE;

@@ -9,6 +9,7 @@
 // The low two address bits are ignored. Unmapped offsets answer SLVERR, read 0 and change nothing; writes to read-only
 // fields are ignored with OKAY. Byte strobes are honoured in every field.
 // Interrupt: irq = OR of enabled status bits, registered. A set and a clear in one clock leave the status bit set.
+// Border, rounding: none, no picture. Overflow: none; counters are those of the cores that own them.
 // Limits: AxPROT is ignored.
 
 `default_nettype none

@@ -4,7 +4,9 @@
 //
 // lidar_drive_low = 1 pulls the pin low, 0 lets it float; it is never driven high.
 // Latency: edge at the pin to its effect: FILTER_CYCLES + 3 clocks. updated pulses with the new distance_mm.
+// Throughput: every pulse of the sensor, back to back.
 // Rounding: distance_mm counts the tick_us pulses within the pulse: error less than 1 mm.
+// Overflow: none; age_us saturates, and a pulse beyond MAX_MM ends as too_long. Border: none, no picture.
 // Accepted pulses: MIN_MM to MAX_MM. A level that lasts less than FILTER_CYCLES clocks is a glitch and is ignored.
 // A pulse counts only if its start was seen while measuring; so one that is under way at enable, reset or re-trigger
 // is never used.
@@ -16,6 +18,7 @@
 //   too_short  the last pulse was shorter than MIN_MM us
 // After timeout and too_long the pin is released for RELEASE_US and pulled low again: a new trigger.
 // Stuck high is reported within MAX_MM + RELEASE_US, stuck low within START_TIMEOUT_US + RELEASE_US (plus 3) us.
+// Limits: a constant offset of the sensor looks like a good pulse.
 
 `default_nettype none
 

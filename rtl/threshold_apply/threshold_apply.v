@@ -2,10 +2,8 @@
 // Gray to binary: compares each pixel with the threshold at its place, interpolated between the thresholds that
 // threshold_stats told of the frame before.
 //
-// Nodes lie at the centres of full windows. Between nodes the threshold is bilinear, beyond the outermost ones constant
-// along that axis; weights are odd numbers over 2**(WINDOW_LOG2 + 1), so every sum is exact: nothing is rounded. Bright
-// is pixel > threshold. m_axis_tdata is 1 for bright, or with cfg_dark_is_one for dark; sampled, like the size, with
-// the start of each frame.
+// Nodes lie at the centres of full windows; between them the threshold is bilinear. Bright is pixel > threshold.
+// m_axis_tdata is 1 for bright, or with cfg_dark_is_one for dark; sampled, like the size, with the start of each frame.
 //
 // A set of thresholds counts when it came whole, with the window rows and columns of the frame that runs, before the
 // next start of frame is taken; that frame uses it. A frame cut off before its last row of windows leaves the older set
@@ -15,7 +13,11 @@
 // Latency     10 cycles.
 // Throughput  1 pixel a cycle without bubbles, also between lines and frames. s_stat_axis waits only after a start of frame,
 //             until the pipeline has moved by one pixel.
-// Frames      As in docs/design.md. Least frame 1x1.
+// Border      Beyond the outermost nodes the threshold is constant along that axis.
+// Rounding    None: weights are odd numbers over 2**(WINDOW_LOG2 + 1), so every sum is exact.
+// Overflow    None: a sum lies between its nodes.
+// Frames      As in docs/design.md.
+// Limits      1x1 to MAX_WIDTH x MAX_HEIGHT.
 
 `default_nettype none
 

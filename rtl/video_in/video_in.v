@@ -7,7 +7,8 @@
 // cfg_width - 1 of a line, and a line that was cut off is followed by the tuser of the next frame.
 //
 // Latency: 3 cycles of pix_clk and 3 to 5 of clk from the pins to m_axis.
-// Throughput: one pixel a cycle of either clock. Stall: FIFO_DEPTH pixels may wait; the camera cannot.
+// Throughput: one pixel a cycle of the slower clock. Overflow: FIFO_DEPTH pixels may wait; the camera cannot.
+// Border, rounding: none; pixels are copied.
 // frame_number and frame_start_us change in the cycle in which m_axis first shows the first pixel of a frame.
 // frame_seen, frame_malformed and frame_overflow are cycles of clk; measured_* is the last complete frame at the camera,
 // also while disabled. cfg_* are sampled with the first pixel of each frame and take up to 8 cycles of each clock to
