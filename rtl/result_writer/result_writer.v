@@ -15,6 +15,7 @@
 // Beats before a first beat (tuser) are dropped. A first beat before the trailer abandons the frame; its buffer is
 // used again. After a write error (SLVERR, DECERR) nothing more of the frame is written; axi_error pulses at its end.
 // Overflow: objects beyond MAX_OBJECTS are taken and counted in the header. frames_unwritten wraps.
+// Border, rounding: none; values are copied.
 // Limits: a reset while a burst is under way breaks the protocol; reset the memory port too (system reset).
 
 `default_nettype none
