@@ -20,7 +20,7 @@ from scripts.demo_draw import annotate
 from scripts.demo_results import Row, collect, showings
 from scripts.demo_table import table
 from scripts.errors import ArgumentParser, UserError, run_main
-from scripts.frames import FrameSet, open_frames
+from scripts.frames import FrameSet, how_many, open_frames
 from scripts.frames_altitude import altitudes_m
 from scripts.report import Facts, write_report
 from sim.cosim.result import CosimResult
@@ -66,7 +66,7 @@ def demo(
         autopilot=autopilot,
         ground=ground,
     )
-    print(f"demo: drawing {len(rows)} pictures", flush=True)
+    print(f"demo: drawing {how_many(len(rows), 'picture')}", flush=True)
     report = write_report(out_dir / "report.html", rows, _annotated(frames, rows, out_dir), facts)
     print(f"\n{table(rows)}\n\n{facts.sentence(rows)}\nReport: {report}\nPictures: {out_dir}/*.png")
     return rows
@@ -108,7 +108,7 @@ def main(arguments: list[str] | None = None) -> None:
     start = time.monotonic()
     frames = open_frames(options.frames, options.limit)
     altitudes = altitudes_m(frames, options.altitude)
-    print(f"demo: {frames.title}, {len(frames.names)} frames", flush=True)
+    print(f"demo: {frames.title}, {how_many(len(frames.names), 'frame')}", flush=True)
     demo(frames, altitudes, options.firmware, options.out)
     print(f"Took {time.monotonic() - start:.0f} s.")
 

@@ -59,6 +59,11 @@ class FrameSet:
         )
 
 
+def how_many(count: int, noun: str) -> str:
+    """A number of things, for a person."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def open_frames(source: str | None, limit: int | None = None) -> FrameSet:
     """Find the frames.
 
@@ -81,8 +86,7 @@ def open_frames(source: str | None, limit: int | None = None) -> FrameSet:
         if not pictures:
             raise UserError(f"{source} holds no PNG or JPEG file; give a folder that does, or a video.")
         some = pictures[:limit]
-        title = f"{len(some)} picture{'' if len(some) == 1 else 's'} of {path.name}"
-        return _pictures(title, some, path / "altitude.csv")
+        return _pictures(f"{how_many(len(some), 'picture')} of {path.name}", some, path / "altitude.csv")
     if _is_picture(path):
         return _pictures(path.name, [path], path.parent / "altitude.csv")
     return _video(path, limit)

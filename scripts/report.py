@@ -15,6 +15,7 @@ from scripts.demo_decode import Line
 from scripts.demo_results import Row
 from scripts.demo_table import cells, columns, units
 from scripts.errors import UserError
+from scripts.frames import how_many
 from scripts.report_chart import Series, chart
 
 _STYLE_SHEET = Path(__file__).with_name("report.css")
@@ -60,7 +61,7 @@ class Facts:
         """The run in one line."""
         found = sum(row.pad is not None for row in rows)
         return (
-            f"Pad found in {found} of {len(rows)} frames; {self.shown} frames shown, "
+            f"Pad found in {found} of {how_many(len(rows), 'frame')}; {how_many(self.shown, 'frame')} shown, "
             f"{self.simulated_ns / 1e9:.3f} s simulated in {self.wall_s:.1f} s; {self.firmware_text}."
         )
 
@@ -106,7 +107,7 @@ def write_report(path: Path, rows: list[Row], pictures: Iterable[np.ndarray], fa
 def _head(rows: list[Row], facts: Facts) -> str:
     source = html.escape(facts.source[:1].upper() + facts.source[1:])
     way = f"camera pixels through the verilated cores and the {facts.firmware_text}, to MAVLink bytes on the wire"
-    return f"<header><h1>Touchdown</h1><p>{source}, {len(rows)} frames: {html.escape(way)}.</p></header>"
+    return f"<header><h1>Touchdown</h1><p>{source}, {how_many(len(rows), 'frame')}: {html.escape(way)}.</p></header>"
 
 
 def _cards(rows: list[Row], facts: Facts) -> str:

@@ -59,10 +59,12 @@ def test_doctor_sees_an_absent_and_a_wrong_debian_package(monkeypatch: pytest.Mo
     ("arguments", "words"),
     [
         (["sim", "CORE=nonsense"], ["nonsense", "gaussian5x5"]),
-        (["sim", "CORE="], ["gaussian5x5"]),
+        (["sim", "CORE="], ["no core was named; give core= one of", "gaussian5x5"]),
         (["sim", "CORE=rgb2gray", "SIM=modelsim"], ["modelsim", "icarus", "verilator"]),
         (["sim", "CORE=rgb2gray", "SEED=abc"], ["seed"]),
         (["vectors", "CORE=nonsense"], ["nonsense", "gaussian5x5"]),
+        (["vectors"], ["no core was named; give core= one of", "gaussian5x5"]),
+        (["demo", "ALTITUDE=docs"], ["docs cannot be read: is a directory"]),
         (["demo", "FRAMES=no/such/folder"], ["no/such/folder"]),
         (["demo", "FIRMWARE=nonsense"], ["nonsense", "qemu", "host"]),
     ],

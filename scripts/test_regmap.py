@@ -3,6 +3,7 @@
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,13 @@ def test_generated_files_are_current(tmp_path: Path) -> None:
     write_all(ROOT, tmp_path)
     old = [name for name in EXPORTERS if (ROOT / name).read_text() != (tmp_path / name).read_text()]
     assert not old, f"{', '.join(old)} differ from {SOURCE}; run make regmap and commit"
+
+
+def test_the_command_names_files_as_the_project_does(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "scripts.regmap", "--out"]
+    for out, prefix in ((tmp_path, f"{tmp_path}/"), (ROOT / "build/regmap", "build/regmap/")):
+        run = subprocess.run([*command, str(out)], cwd=ROOT, check=True, capture_output=True, text=True)
+        assert run.stdout.splitlines() == [prefix + name for name in EXPORTERS]
 
 
 def test_c_and_python_agree(tmp_path: Path) -> None:

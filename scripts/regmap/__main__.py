@@ -14,7 +14,7 @@ def main() -> None:
     parser = ArgumentParser(prog="python -m scripts.regmap", description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT, help="folder that stands for the project root")
     for path in write_all(ROOT, parser.parse_args().out):
-        print(path)
+        print(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
 
 
 run_main(main)

@@ -42,7 +42,8 @@ def load_core(name: str) -> Core:
         UserError: the core is unknown, its `core.toml` is wrong, or a source or the test module does not exist.
     """
     if name not in core_names():
-        raise UserError(f"unknown core '{name}'; choose one of: {', '.join(core_names())}.")
+        what = f"unknown core '{name}'; choose" if name else "no core was named; give CORE="
+        raise UserError(f"{what} one of: {', '.join(core_names())}.")
     where = f"rtl/{name}/core.toml"
     try:
         table = tomllib.loads((ROOT / where).read_text(encoding="utf-8"))
