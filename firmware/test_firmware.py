@@ -35,6 +35,13 @@ def test_pad_geometry_is_golden() -> None:
     assert defined == expected
 
 
+def test_a_reading_is_fresh_as_long_as_the_hardware_says() -> None:
+    header = (ROOT / "firmware/core/fusion.h").read_text()
+    hardware = (ROOT / "rtl/lidar_pwm/lidar_pwm.v").read_text()
+    (limit,) = re.findall(r"^#define FUSION_LIDAR_MAX_AGE_US (\d+)U$", header, re.MULTILINE)
+    assert re.findall(r"parameter MAX_AGE_US = (\d+)", hardware) == [limit]
+
+
 def test_core_knows_no_board() -> None:
     """No header of the board, no address and no heap in the part that also runs elsewhere."""
     for source in sorted((ROOT / "firmware" / "core").glob("*.[ch]")):

@@ -8,7 +8,8 @@
 
 #include "pad_pose.h"
 
-#define FUSION_LIDAR_MAX_AGE_US 200000U
+// MAX_AGE_US of rtl/lidar_pwm. VALID and the age are two registers: between the reads a reading can grow too old.
+#define FUSION_LIDAR_MAX_AGE_US 60000U
 #define FUSION_LIDAR_MIN_MM 50U
 #define FUSION_LIDAR_MAX_MM 40000U
 
