@@ -3,7 +3,8 @@
 
 Every page has the sections of `SECTIONS`, in that order, with others anywhere between. The port and parameter tables
 name what the RTL has, with its directions, widths and defaults. The timing picture is drawn from JSON in the page,
-whose inputs are played into the RTL and whose outputs are what it answers (scripts/corepage_timing.py).
+whose inputs are played into the RTL and whose outputs are what it answers (scripts/corepage_timing.py). The header of
+the RTL speaks of the same matters, and its latency is that of the page, which the tests assert.
 """
 
 import json
@@ -22,8 +23,8 @@ from scripts.corepage_timing import as_text, simulate
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.lint import YOSYS, include_flags
 from tb.common.cores import ROOT, core_names, load_core
+from tb.common.figures import PAGES, numbers, sections
 
-PAGES = ROOT / "docs/cores"
 PICTURES = ROOT / "docs/pictures/cores"
 SECTIONS = (
     "Ports",
@@ -38,11 +39,19 @@ SECTIONS = (
     "Resources",
     "Commands",
 )
+HEADER_WORDS = ("Latency", "Throughput", "Border", "Rounding", "Overflow", "Limit")
+HEADER_GAPS = {
+    "ccl": {"Border", "Rounding"},
+    "landing_core": {"Rounding", "Overflow"},
+    "threshold_stats": {"Border", "Rounding", "Overflow", "Limit"},
+}
+"""Words that a header does not have; one that it has got is to be taken out here."""
 PORT_HEAD = "| port | direction | width | |"
 PARAMETER_HEAD = "| parameter | default | |"
 
 SVG = "{http://www.w3.org/2000/svg}"
 LINK = "{http://www.w3.org/1999/xlink}href"
+HEADER_LATENCY = re.compile(r"^// Latency\b(.*?)(?=\n// [A-Z]\w+(?::|  )|\. [A-Z]\w+:|\Z)", re.DOTALL | re.MULTILINE)
 ROW = re.compile(r"^\| (.*) \|$", re.MULTILINE)
 
 
@@ -77,12 +86,6 @@ def interfaces() -> dict[str, Interface]:
 def page_path(core: str) -> Path:
     """Page of a core."""
     return PAGES / f"{core}.md"
-
-
-def sections(text: str) -> dict[str, str]:
-    """Second-level sections of a page: title to body."""
-    parts = re.split(r"^## (.*)$", text, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
 def rows_below(head: str, body: str) -> list[list[str]]:
@@ -180,10 +183,33 @@ def picture_faults(core: str, text: str) -> list[str]:
     return found
 
 
+def header_of(core: str) -> str:
+    """Comment above the top level of a core."""
+    return load_core(core).sources[-1].read_text(encoding="utf-8").partition("`default_nettype")[0]
+
+
+def header_faults(core: str, text: str, header: str) -> list[str]:
+    """Of what a header says nothing, and where its latency is not that of the page."""
+    lacking = {word for word in HEADER_WORDS if not re.search(rf"\b{word}s?\b", header, re.IGNORECASE)}
+    gaps = HEADER_GAPS.get(core, set())
+    found = [f"{core}: the header says nothing of '{word}'" for word in sorted(lacking - gaps)]
+    found += [f"{core}: the header has '{word}' now; take it out of HEADER_GAPS" for word in sorted(gaps - lacking)]
+    latency = HEADER_LATENCY.search(header)
+    if latency is None or not (numbers(latency[1]) or f"docs/cores/{core}.md" in latency[1]):
+        return [*found, f"{core}: the header gives no latency"]
+    page = iter(numbers(sections(text)["Latency"]))
+    if not all(number in page for number in numbers(latency[1])):
+        found.append(f"{core}: the latency of the header is not that of the page")
+    return found
+
+
 def page_faults(core: str, text: str) -> list[str]:
     """Everything that is wrong with the text of a page, its resources aside (see scripts/synth.py)."""
     shape = shape_faults(core, text)
-    return shape or interface_faults(core, text, interfaces()[core]) + picture_faults(core, text)
+    if shape:
+        return shape
+    found = header_faults(core, text, header_of(core))
+    return found + interface_faults(core, text, interfaces()[core]) + picture_faults(core, text)
 
 
 def read_page(core: str) -> str:

@@ -8,7 +8,7 @@ import pytest
 
 from scripts import corepage
 from scripts import corepage_timing as timing
-from scripts.corepage import page_faults, put_block, read_page
+from scripts.corepage import header_faults, header_of, page_faults, put_block, read_page
 from scripts.corepage_timing import drawn, driven
 from scripts.errors import UserError
 from tb.common.cores import ROOT, core_names, load_core
@@ -27,6 +27,7 @@ CHANGES = {
     "wrong default": ("| `MAX_WIDTH` | 1280 |", "| `MAX_WIDTH` | 1920 |", "the RTL has `MAX_WIDTH` 1280"),
     "missing section": ("## Rounding\n", "", "no section 'Rounding'"),
     "empty section": ("Half up, once, at the end; intermediate sums are exact.", "", "no section 'Rounding'"),
+    "other latency": ("2 pixels and 14 cycles", "2 pixels and 13 cycles", "the latency of the header is not that"),
     "order": ("## Rounding\n", "## Overflow\nNone.\n\n## Rounding\n", "sections are not in the order"),
     "no purpose": ("Gaussian blur, bit-exact", "## Gaussian blur", "does not begin with its name and purpose"),
     "wrong wave": (
@@ -46,6 +47,34 @@ def test_drift_is_seen(change: str) -> None:
     assert before in text
     found = page_faults("gaussian5x5", text.replace(before, after, 1))
     assert any(sentence in fault for fault in found), found
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "fault"),
+    [
+        ("14 cycles", "13 cycles", "gaussian5x5: the latency of the header is not that of the page"),
+        ("2 lines", "two lines", ""),
+        (
+            "Latency     2 lines, 2 pixels and 14 cycles.",
+            "Latency     short.",
+            "gaussian5x5: the header gives no latency",
+        ),
+        ("Borders", "Edges", "gaussian5x5: the header says nothing of 'Border'"),
+        ("overflow", "surprise", "gaussian5x5: the header says nothing of 'Overflow'"),
+    ],
+)
+def test_drift_of_a_header_is_seen(before: str, after: str, fault: str) -> None:
+    header = header_of("gaussian5x5")
+    assert before in header
+    found = header_faults("gaussian5x5", read_page("gaussian5x5"), header.replace(before, after, 1))
+    assert found == ([fault] if fault else [])
+
+
+def test_a_gap_that_is_filled_is_seen() -> None:
+    filled = header_of("ccl") + "// Border: none. Rounding: none.\n"
+    assert header_faults("ccl", read_page("ccl"), filled) == [
+        f"ccl: the header has '{word}' now; take it out of HEADER_GAPS" for word in ("Border", "Rounding")
+    ]
 
 
 def test_a_picture_of_something_else_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

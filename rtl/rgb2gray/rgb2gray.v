@@ -8,6 +8,7 @@
 // Rounding    half up; the weights sum to 2^15, so the result cannot overflow.
 // Borders     none: pointwise. tuser and tlast travel with their pixel, so a
 //             malformed frame leaves as it came; the next core judges it.
+// Limits      none: it knows no frame size.
 
 `default_nettype none
 
