@@ -19,6 +19,11 @@ FRAMES ?=
 ALTITUDE ?=
 FIRMWARE ?= qemu
 PHOTOS ?=
+RUN ?= golden
+COUNT ?=
+SETS ?=
+OPTIONS ?=
+NO_GOALS ?=
 JOBS ?= 2
 
 .PHONY: help
@@ -83,6 +88,10 @@ coverage: setup ## Lines, branches and toggles that the tests of the cores reach
 .PHONY: frames
 frames: setup ## Whole frames through landing_core, every stream equal to golden: [PHOTOS="folder folder"]
 	@$(PYTHON) -m sim.full_frames $(if $(PHOTOS),--photos $(PHOTOS))
+
+.PHONY: accuracy
+accuracy: setup ## How well the pad is found, against truth and goals: [FRAMES=folder] [RUN=golden|rtl] [COUNT=n] [SETS="a b"]
+	@$(PYTHON) -m sim.accuracy.run --jobs $(JOBS) --run "$(RUN)" $(if $(FRAMES),--frames "$(FRAMES)") $(if $(ALTITUDE),--altitude "$(ALTITUDE)") $(if $(COUNT),--count "$(COUNT)") $(if $(SETS),--sets $(SETS)) $(if $(filter-out 0,$(OPTIONS)),--options) $(if $(filter-out 0,$(NO_GOALS)),--no-goals)
 
 .PHONY: regmap
 regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl

@@ -76,6 +76,11 @@ class Firmware:
             ctypes.c_uint64(now_us), lidar_mm is not None, ctypes.c_uint32(lidar_mm or 0), ctypes.c_uint32(age_us)
         )
 
+    @property
+    def min_area_px(self) -> int:
+        """What the firmware would now write into MIN_AREA."""
+        return self._library.touchdown_min_area()
+
     def take(self, link: int) -> list[mavlink.MAVLink_message]:
         """Messages sent on a link since the last call."""
         data = bytes(self.sent[link])

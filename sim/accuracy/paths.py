@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The two ways from pixels to what the firmware says: the golden models with the firmware's C, and the verilated RTL.
+
+Both end in the same record, decoded by the same code, so that they can be compared message by message.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from firmware.library import AUTOPILOT, GROUND, Firmware
+from golden import result_writer
+from golden.chain import Settings, run_chain
+from golden.gaussian5x5 import gaussian5x5
+from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_DTYPE
+from golden.rgb2gray import rgb2gray
+from golden.threshold_stats import threshold_stats
+from scripts.demo_decode import Line, decode
+from scripts.demo_results import Row as Seen
+from scripts.demo_results import collect
+from scripts.frames import HEIGHT, WIDTH, FrameSet
+from sim.accuracy.shots import Shot, Unit
+from sim.cosim.result import Frame
+from sim.cosim.run import run_cosim
+
+SHOWINGS = 9
+"""How often an independent picture is shown; the last time counts.
+
+The first showing has no thresholds. From the second on MIN_AREA goes from 100 px towards 30 (few shapes) or 150 (too
+many) by 10 px a showing: the ninth is the first that has 30 px, and nothing moves after it.
+"""
+FRAME_NS = 50_000_000 / 3
+FIRST_FRAME_NS = 3_800_000
+SCAN_NS = 15_995_000
+RECORD_NS = 78_000
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a unit gave.
+
+    Attributes:
+        frames: All showings with their records.
+        autopilot: Messages of UART0.
+        ground: Messages of UART1.
+        seen: One row a shot, as `scripts.demo_results` joins them.
+    """
+
+    frames: list[Frame] = field(repr=False)
+    autopilot: Line = field(repr=False)
+    ground: Line = field(repr=False)
+    seen: list[Seen]
+
+
+def _schedule(unit: Unit) -> tuple[list[Shot], list[int]]:
+    """The shots in the order in which the camera shows them, and the showing of each shot that counts."""
+    if unit.clip:
+        # Primes the thresholds, as the demo does.
+        return [unit.shots[0], *unit.shots], list(range(1, len(unit.shots) + 1))
+    return [unit.shots[0]] * SHOWINGS, [SHOWINGS - 1]
+
+
+def _answer(unit: Unit, counted: list[int], frames: list[Frame], autopilot: Line, ground: Line) -> Answer:
+    source = FrameSet(
+        title=unit.set,
+        names=tuple(shot.name for shot in unit.shots),
+        sequential=unit.clip,
+        truths=tuple(shot.truth for shot in unit.shots),
+        altitude_csv=None,
+        open=lambda: (shot.picture() for shot in unit.shots),
+    )
+    return Answer(frames, autopilot, ground, collect(source, counted, frames, autopilot, ground))
+
+
+def shown_objects(unit: Unit, settings: Settings) -> Iterator[np.ndarray]:
+    """The objects of each showing, of every size, in the order of the hardware.
+
+    A picture that is shown again differs in nothing but the registers, so it is computed once.
+    """
+    every = replace(settings, min_area=0)
+    shown, counted = _schedule(unit)
+    # Without thresholds everything is bright, and the firmware's settings make that no object at all.
+    yield np.zeros(0, OBJECT_DTYPE)
+    first = shown[0].picture()
+    stats = threshold_stats(gaussian5x5(rgb2gray(first)), settings.factor)
+    if not unit.clip:
+        objects = run_chain(first, stats, every).objects
+        yield from [objects] * (len(shown) - 1)
+        return
+    for showing in counted:
+        stages = run_chain(shown[showing].picture(), stats, every)
+        yield stages.objects
+        stats = stages.stats
+
+
+def golden(unit: Unit, settings: Settings | None = None, options: int | None = None) -> Answer:
+    """The golden models and the firmware's C in this process.
+
+    What the firmware writes to MIN_AREA after one record counts from the next frame on: the record is there 0.1 ms
+    after a frame's last pixel, and the next frame, which takes its registers with its first pixel, comes after 0.67 ms.
+
+    Args:
+        unit: What is shown.
+        settings: Registers other than the firmware's; MIN_AREA is the firmware's all the same.
+        options: What the firmware's detection may do, a mask; default is what the firmware starts with.
+    """
+    settings = settings or Settings()
+    firmware = Firmware()
+    if options is not None:
+        firmware.set_options(options)
+    shown, counted = _schedule(unit)
+    sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
+    frames = []
+    for index, (shot, objects) in enumerate(zip(shown, shown_objects(unit, settings), strict=True)):
+        first_ns = FIRST_FRAME_NS + round(index * FRAME_NS)
+        last_ns = first_ns + SCAN_NS
+        values = {
+            "frame_number": index + 1,
+            "start_time_us": first_ns // 1000,
+            "scan_time_us": SCAN_NS // 1000,
+            "altitude_mm": round(1000 * shot.lidar_m),
+            "altitude_valid": 1,
+            "frame_size_width": WIDTH,
+            "frame_size_height": HEIGHT,
+            "threshold_factor": settings.factor,
+            "min_area": firmware.min_area_px,
+            "thresholds_missing": int(index == 0),
+        }
+        record = result_writer.record(values, objects[objects["area"] >= firmware.min_area_px])
+        error = firmware.on_record(record, (last_ns + RECORD_NS) // 1000)
+        if error != 0:
+            raise RuntimeError(f"the firmware refuses the record of {shot.name} with {error}")
+        for link, data in firmware.sent.items():
+            sent[link] += data
+            data.clear()
+        frames.append(Frame(index, first_ns, last_ns, _whole(record), last_ns + RECORD_NS))
+    lines = {link: decode(bytes(data), [0] * len(data)) for link, data in sent.items()}
+    return _answer(unit, counted, frames, lines[AUTOPILOT], lines[GROUND])
+
+
+def _whole(record: bytes) -> np.void:
+    """The record as a buffer holds it, the places without an object empty."""
+    return np.frombuffer(record.ljust(RECORD_DTYPE.itemsize, b"\0"), RECORD_DTYPE)[0]
+
+
+def rtl(unit: Unit, out_dir: Path) -> Answer:
+    """The verilated landing_core with the firmware built for this machine.
+
+    Args:
+        unit: What is shown.
+        out_dir: Where the run leaves its files; a folder of its own.
+    """
+    shown, counted = _schedule(unit)
+    result = run_cosim(
+        (shot.picture() for shot in shown),
+        [round(1000 * shot.lidar_m) for shot in shown],
+        firmware="host",
+        out_dir=out_dir,
+        progress=lambda _text: None,
+    )
+    autopilot = decode(result.uart0.data, result.uart0.done_ns)
+    ground = decode(result.uart1.data, result.uart1.done_ns)
+    return _answer(unit, counted, result.frames, autopilot, ground)
