@@ -52,11 +52,11 @@ module morphology3x3 #(
       ERROR_dilate_must_be_0_or_1 error_instance ();
     end
     if (DILATE == 0) begin : g_erode
-      assign reduced_column = &column;
-      assign result = &window;
+      assign reduced_column = column == 3'b111;
+      assign result = window == 3'b111;
     end else begin : g_dilate
-      assign reduced_column = |column;
-      assign result = |window;
+      assign reduced_column = column != 3'b000;
+      assign result = window != 3'b000;
     end
   endgenerate
 

@@ -13,6 +13,7 @@ import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from scripts.errors import UserError
 from tb.common.cores import ROOT, Core
@@ -48,8 +49,8 @@ class Fault:
         return tuple(copy if source == self.path else source for source in core.sources)
 
 
-def plan(core_name: str) -> tuple[int, list[int]]:
-    """Return the number of mutants of a core and the order of its configs.
+def settings(core_name: str) -> dict[str, Any]:
+    """Return the table of a core in cores.toml.
 
     Raises:
         UserError: the core has no table in cores.toml.
@@ -57,7 +58,13 @@ def plan(core_name: str) -> tuple[int, list[int]]:
     table = tomllib.loads((HERE / "cores.toml").read_text(encoding="utf-8"))
     if core_name not in table:
         raise UserError(f"tb/mutation/cores.toml has no table [{core_name}]; add one.")
-    return table[core_name]["mutants"], table[core_name]["configs"]
+    return table[core_name]
+
+
+def plan(core_name: str) -> tuple[int, list[int]]:
+    """Return the number of mutants of a core and the order of its configs."""
+    table = settings(core_name)
+    return table["mutants"], table["configs"]
 
 
 def own_sources(core: Core) -> list[Path]:
@@ -89,18 +96,22 @@ def compiled(core: Core, config: int) -> str | None:
 
 
 def candidates(core: Core, seed: int) -> list[Fault]:
-    """Return every mutant of the core: one of each line in the order of their hashes, then the second of each."""
+    """Return every mutant of the core: one of each line in the order of their hashes, then the second of each.
+
+    Lines of the files that cores.toml wants first come before others.
+    """
+    wanted = settings(core.name).get("first", [])
     lines: dict[tuple[str, str, int], list[tuple[str, Fault]]] = {}
     for path in own_sources(core):
         name = str(path.relative_to(ROOT))
         for mutant in mutants(path.read_text(encoding="utf-8")):
             digest = hashlib.sha256(f"{seed}/{core.name}/{name}/{mutant.before}/{mutant.after}".encode()).hexdigest()
             lines.setdefault((name, mutant.before, mutant.line), []).append((digest, Fault(path, mutant)))
-    ranked: list[tuple[int, str, Fault]] = []
-    for found in lines.values():
+    ranked: list[tuple[int, bool, str, Fault]] = []
+    for (name, _, _), found in lines.items():
         for rank, (digest, fault) in enumerate(sorted(found, key=lambda pair: pair[0])):
-            ranked.append((rank, digest, fault))
-    return [fault for _, _, fault in sorted(ranked, key=lambda entry: entry[:2])]
+            ranked.append((rank, name not in wanted, digest, fault))
+    return [fault for _, _, _, fault in sorted(ranked, key=lambda entry: entry[:3])]
 
 
 def chosen(core: Core, count: int, seed: int) -> Iterator[Fault]:
