@@ -68,7 +68,8 @@ def dependencies(core: str, check: str) -> list[Path]:
     if check == "exhaustive":
         return [*rtl, *bench_of(core), *files_in("tb/exhaustive", tests=True)]
     if check in ("mutation", "coverage"):
-        return [*rtl, *bench_of(core), *(ROOT / "tb" / check).glob("[!t]*.py")]
+        tool = [file for file in files_in(f"tb/{check}") if file.suffix == ".py"]
+        return [*rtl, *bench_of(core), *tool]
     if check == "formal":
         return [*rtl, *files_in(f"formal/{core}", "formal/common", "formal/solve.py", "formal/tasks.py")]
     return [*rtl, *files_in(*{"lint": ("scripts/lint", "scripts/lint.py"), "area": ("scripts/synth.py",)}[check])]

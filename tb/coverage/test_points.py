@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Missed points are seen, waivers stay honest; each core reaches its goal (full)."""
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -63,6 +64,19 @@ def test_the_goal_can_be_missed() -> None:
 
 def test_points_are_ordered_by_place() -> None:
     assert Point("a.v", 2, 1, "toggle", "z") < Point("a.v", 10, 1, "branch", "a")
+
+
+@pytest.mark.parametrize(("reuse", "leaves"), [(False, ["rgb2gray"]), (True, [])])
+def test_records_of_an_earlier_run_are_not_left(
+    monkeypatch: pytest.MonkeyPatch, reuse: bool, leaves: list[str]
+) -> None:
+    left = []
+    module = sys.modules[run.__module__]
+    monkeypatch.setattr(module, "measure", lambda core, reuse: {Point("rtl/a.v", 1, 1, "line", "x"): 1})
+    monkeypatch.setattr(module, "load_waivers", lambda path: [])
+    monkeypatch.setattr(module, "leave", lambda core, *_, **__: left.append(core))
+    assert run(load_core("rgb2gray"), reuse)
+    assert left == leaves
 
 
 @pytest.mark.full

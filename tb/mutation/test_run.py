@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The count of killed mutants can fail: survivors, hangs, broken runs and stale entries are seen."""
 
+import json
+import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -94,6 +97,27 @@ def test_entries_are_complete(tmp_path: Path) -> None:
     path.write_text('[[equivalent]]\ncores = ["ccl"]\nfile = "f"\nbefore = "b"\nafter = "a"\nreason = ""\n')
     with pytest.raises(UserError, match="mend"):
         equivalents("ccl", path)
+
+
+def test_what_earlier_tests_killed_is_signed_off_for_those(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A resumed run keeps the hash of the run before; a whole one has that of the files as they are."""
+    module = sys.modules[run.__module__]
+    abouts = []
+
+    def leave(core: str, check: str, *result: object, inputs: str, **_: object) -> None:
+        abouts.append(inputs)
+        table = {"inputs": inputs, "detail": result[-1]}
+        (tmp_path / f"{core}.json").write_text(json.dumps(table), encoding="utf-8")
+
+    monkeypatch.setattr(module, "REPORTS", tmp_path)
+    monkeypatch.setattr(module, "leave", leave)
+    monkeypatch.setattr(module, "attempt", lambda core, fault, configs: Entry(fault, "killed", "", 0, 1.0))
+    monkeypatch.setattr(module, "check_unchanged", lambda core, config: None)
+    for state, resume in (("before", False), ("now", True), ("now", False)):
+        monkeypatch.setattr(module, "digest_of_inputs", lambda core, check, state=state: state)
+        assert run(load_core("rgb2gray"), DEFAULT_SEED, 1, resume)["passed"]
+        abouts.append("end")
+    assert [about for about, after in pairwise(abouts) if after == "end"] == ["before", "before", "now"]
 
 
 @pytest.mark.full
