@@ -14,6 +14,11 @@ def parameter(name: str, default: int) -> int:
     return int(_RUN.get("parameters", {}).get(name, default))
 
 
+def core_name() -> str:
+    """Return the name of the core that is tested."""
+    return str(_RUN["core"])
+
+
 def four_state() -> bool:
     """Return whether the simulator knows X."""
     return _RUN.get("sim") == "icarus"

@@ -14,7 +14,6 @@ from tb.common.run import parameter, where
 
 LIMITS = SizeLimits(3, 3, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
 CORE = VideoCore(golden=gaussian5x5, bits_in=8, reach=2, limits=LIMITS)
-LATENCY = 14
 
 
 @cocotb.test()
@@ -31,7 +30,7 @@ async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
 
 @cocotb.test()
 async def latency_and_throughput(dut: HierarchyObject) -> None:
-    await check_latency(dut, CORE, cycles=LATENCY, flush_lines=2)
+    await check_latency(dut, CORE)
 
 
 @cocotb.test()

@@ -11,7 +11,6 @@ from tb.common.run import parameter
 
 LIMITS = SizeLimits(2, 1, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
 CORE = VideoCore(golden=median5x5, bits_in=1, reach=2, limits=LIMITS)
-LATENCY = 6
 
 
 @cocotb.test()
@@ -28,4 +27,4 @@ async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
 
 @cocotb.test()
 async def latency_and_throughput(dut: HierarchyObject) -> None:
-    await check_latency(dut, CORE, cycles=LATENCY, flush_lines=2)
+    await check_latency(dut, CORE)

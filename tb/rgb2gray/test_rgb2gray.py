@@ -9,12 +9,13 @@ from cocotb.handle import HierarchyObject
 
 from golden.rgb2gray import rgb2gray
 from tb.common.compare import check_frame
+from tb.common.figures import page_figures
 from tb.common.matrix import STALLS, named, start
 from tb.common.patterns import random_frame
 from tb.common.run import where
 from tb.common.stream import Beat, StreamBench, frame_beats, split_frames
 
-LATENCY = 4
+(LATENCY,) = page_figures("rgb2gray")
 
 
 def gray_of(packed: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from cocotb.handle import HierarchyObject
 
 from golden.threshold_apply import threshold_map
 from golden.threshold_stats import window_count
+from tb.common.figures import page_figures
 from tb.common.matrix import SCENES, STALLS, VideoCore
 from tb.common.patterns import random_frame
 from tb.common.run import where
@@ -17,7 +18,7 @@ from tb.threshold_apply.tb_threshold_apply import LIMITS, WINDOW_LOG2, Bench, Se
 
 SIDE = 1 << WINDOW_LOG2
 CORE = VideoCore(golden=lambda frame: frame, bits_in=8, reach=0, limits=LIMITS)
-LATENCY = 10
+(LATENCY,) = page_figures("threshold_apply")
 
 
 def close_frame(rng: Random, nodes: np.ndarray, width: int, height: int) -> np.ndarray:
