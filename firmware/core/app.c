@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "pad_geometry.h"
-#include "pad_pose.h"
 
 #define HEARTBEAT_PERIOD_US 1000000U
 #define DISTANCE_PERIOD_US 50000U
@@ -46,6 +45,7 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
     app->port = *port;
     app->fault = fault;
     app->min_area_px = MIN_AREA_START_PX;
+    app->detect_options = DETECT_ALL;
     app->next_heartbeat_us = now_us;
     app->next_distance_us = now_us;
     app->last_record_us = now_us;
@@ -55,15 +55,21 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
     say(app, MAVLINK_OUT_INFO, "Touchdown: started");
 }
 
-static void send_landing_target(struct app *app, const struct landing_record *record, const struct pad_pose *pose,
+// The fused altitude scales what the pad's size says.
+static double scale_of(const struct pad_estimate *pad, const struct altitude *altitude)
+{
+    return altitude->height_m / pad->height_m;
+}
+
+static void send_landing_target(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
                                 const struct altitude *altitude)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     const struct mavlink_out_target target = {
         .time_us = record->header.start_time_us,
-        .right = pose->ray.right,
-        .forward = pose->ray.forward,
-        .height_m = altitude->height_m,
+        .right = pad->right_m / pad->depth_m,
+        .forward = pad->forward_m / pad->depth_m,
+        .height_m = pad->depth_m * scale_of(pad, altitude),
         .pad_width_m = RING_WIDTH_M,
     };
 
@@ -71,8 +77,9 @@ static void send_landing_target(struct app *app, const struct landing_record *re
          mavlink_out_landing_target(&app->out[APP_LINK_AUTOPILOT], &target, bytes));
 }
 
-static void send_pad_array(struct app *app, const struct landing_record *record, const struct pad_shapes *pad,
-                           const struct pad_pose *pose, const struct altitude *altitude)
+// `pad` is NULL when none was found.
+static void send_pad_array(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
+                           const struct altitude *altitude)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     float values[APP_PAD_FIELDS] = {0.0F};
@@ -81,17 +88,17 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
     flags |= altitude->from_lidar ? APP_FLAG_ALTITUDE_LIDAR : 0U;
     flags |= altitude->from_pad ? APP_FLAG_ALTITUDE_PAD : 0U;
     flags |= altitude->lidar_implausible ? APP_FLAG_LIDAR_IMPLAUSIBLE : 0U;
-    if (pose != NULL) {
-        flags |= pad->has_ring ? APP_FLAG_RING : 0U;
-        flags |= pad->has_small_ring ? APP_FLAG_SMALL_RING : 0U;
+    if (pad != NULL) {
+        flags |= (pad->kinds & PAD_RING) != 0U ? APP_FLAG_RING : 0U;
+        flags |= (pad->kinds & PAD_SMALL_RING) != 0U ? APP_FLAG_SMALL_RING : 0U;
         values[APP_PAD_FOUND] = 1.0F;
-        values[APP_PAD_X_PX] = (float)pose->x_px;
-        values[APP_PAD_Y_PX] = (float)pose->y_px;
-        values[APP_PAD_ANGLE_DEG] = (float)pose->angle_deg;
-        values[APP_PAD_RIGHT_M] = (float)(pose->ray.right * altitude->height_m);
-        values[APP_PAD_FORWARD_M] = (float)(pose->ray.forward * altitude->height_m);
-        values[APP_PAD_ERROR] = (float)pad->error;
-        values[APP_PAD_SIZE_ALTITUDE_M] = (float)pose->height_m;
+        values[APP_PAD_X_PX] = (float)pad->x_px;
+        values[APP_PAD_Y_PX] = (float)pad->y_px;
+        values[APP_PAD_ANGLE_DEG] = (float)pad->angle_deg;
+        values[APP_PAD_RIGHT_M] = (float)(pad->right_m * scale_of(pad, altitude));
+        values[APP_PAD_FORWARD_M] = (float)(pad->forward_m * scale_of(pad, altitude));
+        values[APP_PAD_ERROR] = (float)pad->doubt;
+        values[APP_PAD_SIZE_ALTITUDE_M] = (float)pad->height_m;
     }
     values[APP_PAD_ALTITUDE_M] = (float)altitude->height_m;
     values[APP_PAD_FRAME_NUMBER] = (float)record->header.frame_number;
@@ -128,8 +135,7 @@ void app_on_lost_record(struct app *app)
 
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us)
 {
-    struct pad_shapes pad;
-    struct pad_pose pose;
+    struct pad_estimate pad;
     const int error = record_check(record, size_bytes);
 
     if (error != 0) {
@@ -153,16 +159,16 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         .age_us = record->header.altitude_age_us,
     };
     // Smaller frames are the same camera, binned.
-    const struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
-    const bool found =
-        classify_pad(record, &app->scratch, &pad) == 0 && pad_pose_estimate(&pad, &camera, &pose) == 0;
-    const struct altitude altitude = fusion_altitude(&lidar, found ? &pose : NULL);
+    struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
+    camera.height_px = (double)record->header.frame_size_height;
+    const bool found = detect_pad(record, &camera, NULL, app->detect_options, &app->scratch, &pad) == 0;
+    const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
     if (found) {
         app->health[APP_HEALTH_PADS]++;
-        send_landing_target(app, record, &pose, &altitude);
+        send_landing_target(app, record, &pad, &altitude);
     }
-    send_pad_array(app, record, found ? &pad : NULL, found ? &pose : NULL, &altitude);
+    send_pad_array(app, record, found ? &pad : NULL, &altitude);
     return 0;
 }
 

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "camera.h"
-#include "classify.h"
+#include "detect.h"
 #include "fusion.h"
 #include "mavlink_in.h"
 #include "mavlink_out.h"
@@ -36,7 +36,7 @@ enum app_pad_field {
     APP_PAD_FRAME_NUMBER,  // exact below 2^24
     APP_PAD_OBJECT_COUNT,
     APP_PAD_FLAGS,         // APP_FLAG_*
-    APP_PAD_ERROR,         // 0 = the shapes' ratios are ideal
+    APP_PAD_ERROR,         // misfit of the shapes; 1 = noise alone
     APP_PAD_SIZE_ALTITUDE_M, // altitude from the pad's size alone
     APP_PAD_FIELDS
 };
@@ -89,7 +89,8 @@ struct app {
     bool lidar_worked; // since power-up
     uint32_t min_area_px;
     uint32_t health[APP_HEALTH_FIELDS];
-    struct classify_scratch scratch;
+    uint32_t detect_options; // DETECT_*
+    struct detect_scratch scratch;
 };
 
 // `fault` is NULL, or one sentence of at most 50 characters that says why

@@ -21,32 +21,32 @@ bool fusion_lidar_usable(const struct lidar_reading *lidar)
            lidar->distance_mm <= FUSION_LIDAR_MAX_MM;
 }
 
-struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct pad_pose *pose)
+struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct pad_estimate *pad)
 {
     struct altitude altitude = {.height_m = 0.0, .from_lidar = false, .from_pad = false, .lidar_implausible = false};
     const bool usable = fusion_lidar_usable(lidar);
     const double lidar_m = (double)lidar->distance_mm * METRES_PER_MM;
 
-    if (pose == NULL) {
+    if (pad == NULL) {
         altitude.from_lidar = usable;
         altitude.height_m = usable ? lidar_m : 0.0;
         return altitude;
     }
     altitude.from_pad = true;
-    altitude.height_m = pose->height_m;
+    altitude.height_m = pad->height_m;
     if (!usable) {
         return altitude;
     }
-    const double tolerance_m = PLAUSIBLE_DIFFERENCE_M + PLAUSIBLE_DIFFERENCE_RATIO * pose->height_m;
-    if (fabs(lidar_m - pose->height_m) > tolerance_m) {
+    const double tolerance_m = PLAUSIBLE_DIFFERENCE_M + PLAUSIBLE_DIFFERENCE_RATIO * pad->height_m;
+    if (fabs(lidar_m - pad->height_m) > tolerance_m) {
         // The pad's size is known and was just seen; what the beam hit is not.
         altitude.lidar_implausible = true;
         return altitude;
     }
-    const double pad_sigma_m = PAD_SIGMA_RATIO * pose->height_m;
+    const double pad_sigma_m = PAD_SIGMA_RATIO * pad->height_m;
     const double lidar_weight = 1.0 / (LIDAR_SIGMA_M * LIDAR_SIGMA_M);
     const double pad_weight = 1.0 / (pad_sigma_m * pad_sigma_m);
     altitude.from_lidar = true;
-    altitude.height_m = (lidar_m * lidar_weight + pose->height_m * pad_weight) / (lidar_weight + pad_weight);
+    altitude.height_m = (lidar_m * lidar_weight + pad->height_m * pad_weight) / (lidar_weight + pad_weight);
     return altitude;
 }

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pad_pose.h"
+#include "detect.h"
 
 // MAX_AGE_US of rtl/lidar_pwm. VALID and the age are two registers: between the reads a reading can grow too old.
 #define FUSION_LIDAR_MAX_AGE_US 60000U
@@ -29,7 +29,7 @@ struct altitude {
 // True when the reading may be used at all: valid, fresh, within the sensor's range.
 bool fusion_lidar_usable(const struct lidar_reading *lidar);
 
-// `pose` is NULL when no pad is in sight.
-struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct pad_pose *pose);
+// `pad` is NULL when no pad is in sight.
+struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct pad_estimate *pad);
 
 #endif

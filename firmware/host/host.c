@@ -30,6 +30,11 @@ int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us)
     return app_on_record(&app, &record, size, now_us);
 }
 
+void touchdown_set_options(uint32_t options)
+{
+    app.detect_options = options;
+}
+
 uint32_t touchdown_min_area(void)
 {
     return app_min_area_px(&app);

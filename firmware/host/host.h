@@ -23,6 +23,9 @@ int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us);
 // What the firmware would now write into MIN_AREA, in pixels.
 uint32_t touchdown_min_area(void);
 
+// DETECT_* of firmware/core/detect.h; touchdown_init sets all.
+void touchdown_set_options(uint32_t options);
+
 // Bytes that the other end of a link sent.
 void touchdown_on_bytes(int link, const uint8_t *bytes, size_t size, uint64_t now_us);
 

@@ -11,6 +11,8 @@ import pytest
 from sim.world.camera import Camera
 from sim.world.pose import Pose, truth_of
 
+_CAMERA = ("focal_px", "centre_x_px", "centre_y_px", "width_px", "height_px", "radial_2", "radial_4")
+
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "firmware" / "core" / "camera.c"
 
@@ -18,7 +20,7 @@ SOURCE = ROOT / "firmware" / "core" / "camera.c"
 class FirmwareCamera(ctypes.Structure):
     """`struct camera` of firmware/core/camera.h."""
 
-    _fields_ = tuple((name, ctypes.c_double) for name in ("focal_px", "centre_x_px", "centre_y_px", "width_px"))
+    _fields_ = tuple((name, ctypes.c_double) for name in _CAMERA)
 
 
 class Ray(ctypes.Structure):

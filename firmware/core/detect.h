@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the pad among the objects of a record. Hypotheses come from what is
+// cheap to recognise; each is fitted with the whole pad's geometry, and only one
+// that explains all that should be there is taken.
+#ifndef TOUCHDOWN_DETECT_H
+#define TOUCHDOWN_DETECT_H
+
+#include <stdint.h>
+
+#include "landing_regs.h"
+#include "pad_fit.h"
+
+enum { DETECT_E_NO_PAD = -1 };
+
+// What can be left out, to see what it is worth.
+#define DETECT_RING_PIECES 1U // a ring that is broken or cut by the border still counts
+#define DETECT_CLOSE 2U       // from the small ring, when the border cuts the shapes
+#define DETECT_FUSED 4U       // inner shapes that have run together, inside a whole ring
+#define DETECT_PERSPECTIVE 8U // the centre from the fitted view, not from the plain line between square and rectangle
+#define DETECT_ALL 15U
+
+// A shape of the record and where it touches the frame.
+struct candidate {
+    struct shape shape;
+    bool clipped;
+};
+
+struct detect_scratch {
+    int count;
+    struct candidate candidates[LANDING_RECORD_MAX_OBJECTS];
+    int solid_count;
+    uint16_t solids[LANDING_RECORD_MAX_OBJECTS]; // by rising area
+};
+
+struct pad_estimate {
+    struct pad_view view;
+    double x_px; // image of the ring's physical centre
+    double y_px;
+    double angle_deg;   // (-180, 180], clockwise in the image; 0 = square above rectangle
+    double right_m;     // pad's centre in camera axes, as its size says
+    double forward_m;
+    double depth_m;
+    double height_m;    // from the camera along its axis to the pad's plane
+    double misfit;      // 1 = noise alone
+    double doubt;       // misfit, and what is missing or does not belong
+    double ring_share;  // of the ring's visible print that was seen
+    unsigned kinds;     // PAD_* that were seen
+};
+
+// `tilt`: how the plane is expected to lie; NULL = anyhow.
+int detect_pad(const struct landing_record *record, const struct camera *camera, const struct tilt_hint *tilt,
+               uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad);
+
+#endif

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pad_fit.h"
+
+#include <math.h>
+
+#define STEPS 8
+#define RESIDUALS_A_SIGHTING 6
+#define RESIDUALS (RESIDUALS_A_SIGHTING * PAD_FIT_SIGHTINGS)
+#define CONVERGED_PX 1e-3
+
+// How well each thing can be known. Centroids of solid shapes: to a fraction of
+// a pixel, and paper is curled by some thousandths of its size. A wide ring
+// suffers more from curl, shadow and grass.
+#define CENTROID_SIGMA_PX 0.12
+#define CENTROID_SIGMA_SIZE 0.004
+#define RING_SIGMA_PX 0.5
+#define RING_SIGMA_SIZE 0.01
+#define RING_SIGMA_EDGE 0.5
+#define EDGE_SIGMA_PX 0.12
+#define AREA_SIGMA 0.02
+#define SPREAD_SIGMA_PX 0.10
+#define SPREAD_SIGMA 0.015
+#define PIECES_FACTOR 3.0
+#define CLIPPED_SIGMA_PX 0.5
+#define CLIPPED_SIGMA_SIZE 0.01
+#define EDGE_PRIOR_SIGMA_PX 1.0
+
+// Two edges of a box that move by 1 change its standard deviation by 2 / sqrt(12).
+#define SPREAD_OF_EDGE 0.577
+
+static const double step_sizes[PAD_PARAMETERS] = {0.02, 0.02, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2};
+
+struct terms {
+    int count;
+    double residual[RESIDUALS]; // in standard deviations
+};
+
+static void add(struct terms *terms, double difference, double sigma)
+{
+    terms->residual[terms->count] = difference / sigma;
+    terms->count++;
+}
+
+// Residuals of one sighting. All are lengths in pixels before they are divided.
+static void compare(struct terms *terms, const struct sighting *sighting, const struct shape *expected, double inside,
+                    double edge_px)
+{
+    const struct shape *seen = &sighting->seen;
+    const bool ring = (sighting->kinds & PAD_RING) != 0U;
+    const double doubt = sighting->pieces ? PIECES_FACTOR : 1.0;
+    const double spread = sqrt((expected->cov_xx + expected->cov_yy) / 2.0);
+    double sigma = ring ? RING_SIGMA_PX + RING_SIGMA_SIZE * spread : CENTROID_SIGMA_PX + CENTROID_SIGMA_SIZE * spread;
+
+    if (ring) {
+        // Bloom that eats the ring eats more of it on the brighter side.
+        sigma += RING_SIGMA_EDGE * fabs(edge_px);
+    }
+    if (sighting->clipped) {
+        sigma += CLIPPED_SIGMA_PX + CLIPPED_SIGMA_SIZE * spread;
+    }
+    add(terms, seen->x_px - expected->x_px, doubt * sigma);
+    add(terms, seen->y_px - expected->y_px, doubt * sigma);
+
+    // Whatever moves edges moves all of them alike.
+    const double edges_px = inside * pad_edge_mm(sighting->kinds) * sqrt(expected->area_px / (inside * pad_area_mm2(sighting->kinds)));
+    const double area = fmax(expected->area_px + edge_px * edges_px, 1.0);
+    const double area_sigma = EDGE_SIGMA_PX * edges_px + AREA_SIGMA * area;
+    add(terms, sqrt(seen->area_px) - sqrt(area), doubt * area_sigma / (2.0 * sqrt(area)));
+
+    if (sighting->clipped || sighting->kinds == PAD_SMALL_RING) {
+        return;
+    }
+    double xx = expected->cov_xx;
+    double xy = expected->cov_xy;
+    double yy = expected->cov_yy;
+    if (sighting->kinds == PAD_SQUARE || sighting->kinds == PAD_RECTANGLE) {
+        // (C^1/2 + m)^2 is nearly C + 2 m C^1/2
+        const double root = sqrt(fmax(xx * yy - xy * xy, 0.0));
+        const double move = 2.0 * SPREAD_OF_EDGE * edge_px / sqrt(xx + yy + 2.0 * root);
+        xx += move * (expected->cov_xx + root);
+        yy += move * (expected->cov_yy + root);
+        xy += move * expected->cov_xy;
+    }
+    const double spread_sigma =
+        doubt * (ring ? RING_SIGMA_PX + RING_SIGMA_SIZE * spread : SPREAD_SIGMA_PX + SPREAD_SIGMA * spread);
+    add(terms, (seen->cov_xx - xx) / (2.0 * spread), spread_sigma);
+    add(terms, (seen->cov_xy - xy) / (2.0 * spread), spread_sigma);
+    add(terms, (seen->cov_yy - yy) / (2.0 * spread), spread_sigma);
+}
+
+static int residuals_of(const struct pad_evidence *evidence, const struct camera *camera, const struct pad_view *view,
+                        struct terms *terms)
+{
+    struct pad_plane plane;
+
+    if (pad_plane_of(view, camera, &plane) != 0) {
+        return PAD_FIT_E_LOST;
+    }
+    terms->count = 0;
+    for (int i = 0; i < evidence->count; i++) {
+        const struct sighting *sighting = &evidence->sightings[i];
+        struct shape expected;
+        const double inside = pad_plane_moments(&plane, camera, sighting->kinds, sighting->clipped, &expected);
+        if (!(inside > 0.02) || !(expected.area_px > 1.0)) {
+            return PAD_FIT_E_LOST;
+        }
+        compare(terms, sighting, &expected, inside, view->value[PAD_EDGE_PX]);
+    }
+    return 0;
+}
+
+// Solves matrix * x = x in place, for a symmetric positive matrix (Cholesky).
+static bool solve(double matrix[PAD_PARAMETERS][PAD_PARAMETERS], double x[PAD_PARAMETERS])
+{
+    for (int i = 0; i < PAD_PARAMETERS; i++) {
+        for (int j = 0; j <= i; j++) {
+            double sum = matrix[i][j];
+            for (int k = 0; k < j; k++) {
+                sum -= matrix[i][k] * matrix[j][k];
+            }
+            if (i != j) {
+                matrix[i][j] = sum / matrix[j][j];
+            } else if (sum > 0.0) {
+                matrix[i][i] = sqrt(sum);
+            } else {
+                return false;
+            }
+        }
+    }
+    for (int i = 0; i < PAD_PARAMETERS; i++) {
+        for (int k = 0; k < i; k++) {
+            x[i] -= matrix[i][k] * x[k];
+        }
+        x[i] /= matrix[i][i];
+    }
+    for (int i = PAD_PARAMETERS - 1; i >= 0; i--) {
+        for (int k = i + 1; k < PAD_PARAMETERS; k++) {
+            x[i] -= matrix[k][i] * x[k];
+        }
+        x[i] /= matrix[i][i];
+    }
+    return true;
+}
+
+static double square_of(double value)
+{
+    return value * value;
+}
+
+static double cost_of(const struct terms *terms, const struct tilt_hint *tilt, const struct pad_view *view)
+{
+    double cost = square_of((view->value[PAD_TILT_X] - tilt->x) / tilt->sigma) +
+                  square_of((view->value[PAD_TILT_Y] - tilt->y) / tilt->sigma) +
+                  square_of(view->value[PAD_EDGE_PX] / EDGE_PRIOR_SIGMA_PX);
+
+    for (int i = 0; i < terms->count; i++) {
+        cost += square_of(terms->residual[i]);
+    }
+    return cost;
+}
+
+// The step of Gauss and Newton, damped by `damping` (Levenberg and Marquardt).
+static bool step_of(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
+                    const struct pad_view *view, const struct terms *at, double damping, double step[PAD_PARAMETERS])
+{
+    double slopes[PAD_PARAMETERS][RESIDUALS];
+    double matrix[PAD_PARAMETERS][PAD_PARAMETERS];
+
+    for (int i = 0; i < PAD_PARAMETERS; i++) {
+        struct pad_view moved = *view;
+        struct terms there;
+        moved.value[i] += step_sizes[i];
+        if (residuals_of(evidence, camera, &moved, &there) != 0) {
+            return false;
+        }
+        for (int k = 0; k < at->count; k++) {
+            slopes[i][k] = (at->residual[k] - there.residual[k]) / step_sizes[i];
+        }
+    }
+    for (int i = 0; i < PAD_PARAMETERS; i++) {
+        step[i] = 0.0;
+        for (int k = 0; k < at->count; k++) {
+            step[i] += slopes[i][k] * at->residual[k];
+        }
+        for (int j = 0; j <= i; j++) {
+            matrix[i][j] = 0.0;
+            for (int k = 0; k < at->count; k++) {
+                matrix[i][j] += slopes[i][k] * slopes[j][k];
+            }
+        }
+    }
+    const double tilt_weight = 1.0 / square_of(tilt->sigma);
+    const double edge_weight = 1.0 / square_of(EDGE_PRIOR_SIGMA_PX);
+    matrix[PAD_TILT_X][PAD_TILT_X] += tilt_weight;
+    matrix[PAD_TILT_Y][PAD_TILT_Y] += tilt_weight;
+    matrix[PAD_EDGE_PX][PAD_EDGE_PX] += edge_weight;
+    step[PAD_TILT_X] += tilt_weight * (tilt->x - view->value[PAD_TILT_X]);
+    step[PAD_TILT_Y] += tilt_weight * (tilt->y - view->value[PAD_TILT_Y]);
+    step[PAD_EDGE_PX] -= edge_weight * view->value[PAD_EDGE_PX];
+    for (int i = 0; i < PAD_PARAMETERS; i++) {
+        matrix[i][i] *= 1.0 + damping;
+    }
+    return solve(matrix, step);
+}
+
+int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
+            struct pad_view *view, double *misfit, double *worst)
+{
+    struct terms terms;
+    double damping = 1e-4;
+
+    if (residuals_of(evidence, camera, view, &terms) != 0) {
+        return PAD_FIT_E_LOST;
+    }
+    double cost = cost_of(&terms, tilt, view);
+    for (int i = 0; i < STEPS; i++) {
+        double step[PAD_PARAMETERS];
+        struct pad_view moved = *view;
+        struct terms there;
+        if (!step_of(evidence, camera, tilt, view, &terms, damping, step)) {
+            return PAD_FIT_E_LOST;
+        }
+        for (int k = 0; k < PAD_PARAMETERS; k++) {
+            moved.value[k] += step[k];
+        }
+        const bool valid = residuals_of(evidence, camera, &moved, &there) == 0;
+        const double moved_cost = valid ? cost_of(&there, tilt, &moved) : cost;
+        if (!valid || !(moved_cost < cost)) {
+            if (valid && moved_cost < cost + 1e-3) {
+                break;
+            }
+            damping = damping * 30.0 + 1e-3;
+            continue;
+        }
+        const double gain = cost - moved_cost;
+        *view = moved;
+        terms = there;
+        cost = moved_cost;
+        damping /= 10.0;
+        if (fabs(step[PAD_X_PX]) + fabs(step[PAD_Y_PX]) < CONVERGED_PX || gain < 1e-3) {
+            break;
+        }
+    }
+    // The priors stand for as many observations as there are parameters less four.
+    *misfit = cost / fmax(terms.count - 4, 1);
+    *worst = 0.0;
+    for (int i = 0; i < terms.count; i++) {
+        *worst = fmax(*worst, fabs(terms.residual[i]));
+    }
+    return 0;
+}

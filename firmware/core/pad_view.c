@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pad_view.h"
+
+#include <math.h>
+
+#include "pad_geometry.h"
+
+#define PI 3.14159265358979323846
+
+// Two points and equal weights integrate cubic polynomials exactly.
+#define GAUSS_2 0.28867513459481287
+#define CELLS_COARSE 2
+#define CELLS_FINE 6
+#define ANGLES_COARSE 12
+#define ANGLES_FINE 36
+#define RADII_FINE 2
+
+struct box {
+    double x_mm;
+    double y_mm;
+    double width_mm;
+    double height_mm;
+};
+
+struct annulus {
+    double outer_mm;
+    double inner_mm;
+};
+
+static const struct box square = {SQUARE_CENTRE_X_MM, SQUARE_CENTRE_Y_MM, SQUARE_SIDE_MM, SQUARE_SIDE_MM};
+static const struct box rectangle = {RECTANGLE_CENTRE_X_MM, RECTANGLE_CENTRE_Y_MM, RECTANGLE_WIDTH_MM,
+                                     RECTANGLE_HEIGHT_MM};
+static const struct annulus small_ring = {SMALL_RING_OUTER_RADIUS_MM, SMALL_RING_INNER_RADIUS_MM};
+static const struct annulus ring = {RING_OUTER_RADIUS_MM, RING_INNER_RADIUS_MM};
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+int pad_plane_of(const struct pad_view *view, const struct camera *camera, struct pad_plane *plane)
+{
+    const double *value = view->value;
+    const double distance_mm = exp(value[PAD_LOG_DISTANCE_MM]);
+    const double scale = 1.0 / sqrt(value[PAD_TILT_X] * value[PAD_TILT_X] + value[PAD_TILT_Y] * value[PAD_TILT_Y] + 1.0);
+    double direction[3];
+
+    if (camera_direction(camera, value[PAD_X_PX], value[PAD_Y_PX], direction) != 0) {
+        return CAMERA_E_OUTSIDE;
+    }
+    const double normal[3] = {scale * value[PAD_TILT_X], scale * value[PAD_TILT_Y], scale};
+    // Of all vectors in the plane, the one whose projection has the yaw.
+    const double x = cos(value[PAD_YAW_RAD]);
+    const double y = sin(value[PAD_YAW_RAD]);
+    const double z = -(x * value[PAD_TILT_X] + y * value[PAD_TILT_Y]);
+    const double length = 1.0 / sqrt(1.0 + z * z);
+    const double across[3] = {x * length, y * length, z * length};
+
+    for (int i = 0; i < 3; i++) {
+        plane->centre[i] = distance_mm * direction[i];
+        plane->normal[i] = normal[i];
+        plane->across[i] = across[i];
+    }
+    plane->down[0] = normal[1] * across[2] - normal[2] * across[1];
+    plane->down[1] = normal[2] * across[0] - normal[0] * across[2];
+    plane->down[2] = normal[0] * across[1] - normal[1] * across[0];
+    return 0;
+}
+
+static void point_of(const struct pad_plane *plane, double x_mm, double y_mm, double point[3])
+{
+    for (int i = 0; i < 3; i++) {
+        point[i] = plane->centre[i] + x_mm * plane->across[i] + y_mm * plane->down[i];
+    }
+}
+
+void pad_plane_project(const struct pad_plane *plane, const struct camera *camera, double x_mm, double y_mm,
+                       double *x_px, double *y_px)
+{
+    double point[3];
+
+    point_of(plane, x_mm, y_mm, point);
+    camera_image(camera, point, x_px, y_px);
+}
+
+int pad_plane_unproject(const struct pad_plane *plane, const struct camera *camera, double x_px, double y_px,
+                        double *x_mm, double *y_mm)
+{
+    double direction[3];
+
+    if (camera_direction(camera, x_px, y_px, direction) != 0) {
+        return CAMERA_E_OUTSIDE;
+    }
+    const double slope = dot(direction, plane->normal);
+    const double height = dot(plane->centre, plane->normal);
+    // Grazing rays meet the plane far away, where a pixel of noise is metres.
+    if (!(slope * height > 0.05 * height * height / sqrt(dot(plane->centre, plane->centre)))) {
+        return CAMERA_E_OUTSIDE;
+    }
+    double offset[3];
+    for (int i = 0; i < 3; i++) {
+        offset[i] = direction[i] * height / slope - plane->centre[i];
+    }
+    *x_mm = dot(offset, plane->across);
+    *y_mm = dot(offset, plane->down);
+    return 0;
+}
+
+// Sums over the sample points of one sighting.
+struct sums {
+    const struct pad_plane *plane;
+    const struct camera *camera;
+    bool clipped;
+    double origin_x_px; // near the shapes, so that nothing cancels
+    double origin_y_px;
+    double whole; // area without the frame's border, pixels
+    double area;
+    double x;
+    double y;
+    double xx;
+    double xy;
+    double yy;
+};
+
+// Share of a small square of this size that lies inside the frame.
+static double share_inside(const struct camera *camera, double x_px, double y_px, double size_px)
+{
+    const double across = fmin(x_px + 0.5, camera->width_px - 0.5 - x_px);
+    const double down = fmin(y_px + 0.5, camera->height_px - 0.5 - y_px);
+
+    return fmin(1.0, fmax(0.0, 0.5 + fmin(across, down) / size_px));
+}
+
+static void add_point(struct sums *sums, double x_mm, double y_mm, double area_mm2)
+{
+    double point[3];
+    double x_px;
+    double y_px;
+
+    point_of(sums->plane, x_mm, y_mm, point);
+    const double scale = camera_image(sums->camera, point, &x_px, &y_px);
+    // Both ways a mm across the ray becomes `scale` pixels; the plane is inclined to it.
+    const double slope = fabs(dot(point, sums->plane->normal)) / sqrt(dot(point, point));
+    double area = area_mm2 * scale * slope;
+
+    sums->whole += area;
+    if (sums->clipped) {
+        area *= share_inside(sums->camera, x_px, y_px, sqrt(area));
+    }
+    const double x = x_px - sums->origin_x_px;
+    const double y = y_px - sums->origin_y_px;
+    sums->area += area;
+    sums->x += area * x;
+    sums->y += area * y;
+    sums->xx += area * x * x;
+    sums->xy += area * x * y;
+    sums->yy += area * y * y;
+}
+
+static void add_box(struct sums *sums, const struct box *box)
+{
+    const int cells = sums->clipped ? CELLS_FINE : CELLS_COARSE;
+    const double pitch = sums->clipped ? 1.0 / CELLS_FINE : 2.0 * GAUSS_2;
+    const double first = -0.5 * pitch * (cells - 1);
+    const double area = box->width_mm * box->height_mm / (cells * cells);
+
+    for (int i = 0; i < cells; i++) {
+        for (int j = 0; j < cells; j++) {
+            add_point(sums, box->x_mm + (first + i * pitch) * box->width_mm,
+                      box->y_mm + (first + j * pitch) * box->height_mm, area);
+        }
+    }
+}
+
+static void add_annulus(struct sums *sums, const struct annulus *annulus)
+{
+    const int angles = sums->clipped ? ANGLES_FINE : ANGLES_COARSE;
+    const int radii = sums->clipped ? RADII_FINE : 1;
+    const double outer = annulus->outer_mm * annulus->outer_mm;
+    const double inner = annulus->inner_mm * annulus->inner_mm;
+    const double area = PI * (outer - inner) / (angles * radii);
+    const double cos_step = cos(2.0 * PI / angles);
+    const double sin_step = sin(2.0 * PI / angles);
+    double x = 1.0;
+    double y = 0.0;
+
+    for (int i = 0; i < angles; i++) {
+        for (int j = 0; j < radii; j++) {
+            // Rings of equal area; the one radius has the right second moments.
+            const double radius = sqrt(inner + (outer - inner) * (j + 0.5) / radii);
+            add_point(sums, radius * x, radius * y, area);
+        }
+        const double turned = x * cos_step - y * sin_step;
+        y = x * sin_step + y * cos_step;
+        x = turned;
+    }
+}
+
+double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds, bool clipped,
+                         struct shape *seen)
+{
+    struct sums sums = {.plane = plane, .camera = camera, .clipped = clipped};
+
+    camera_image(camera, plane->centre, &sums.origin_x_px, &sums.origin_y_px);
+    if ((kinds & PAD_SQUARE) != 0U) {
+        add_box(&sums, &square);
+    }
+    if ((kinds & PAD_RECTANGLE) != 0U) {
+        add_box(&sums, &rectangle);
+    }
+    if ((kinds & PAD_SMALL_RING) != 0U) {
+        add_annulus(&sums, &small_ring);
+    }
+    if ((kinds & PAD_RING) != 0U) {
+        add_annulus(&sums, &ring);
+    }
+    if (!(sums.area > 0.0)) {
+        return 0.0;
+    }
+    const double x = sums.x / sums.area;
+    const double y = sums.y / sums.area;
+    seen->area_px = sums.area;
+    seen->x_px = sums.origin_x_px + x;
+    seen->y_px = sums.origin_y_px + y;
+    seen->cov_xx = sums.xx / sums.area - x * x;
+    seen->cov_xy = sums.xy / sums.area - x * y;
+    seen->cov_yy = sums.yy / sums.area - y * y;
+    return sums.area / sums.whole;
+}
+
+static double box_edge_mm(const struct box *box)
+{
+    return 2.0 * (box->width_mm + box->height_mm);
+}
+
+static double annulus_edge_mm(const struct annulus *annulus)
+{
+    return 2.0 * PI * (annulus->outer_mm + annulus->inner_mm);
+}
+
+static double annulus_area_mm2(const struct annulus *annulus)
+{
+    return PI * (annulus->outer_mm * annulus->outer_mm - annulus->inner_mm * annulus->inner_mm);
+}
+
+double pad_edge_mm(unsigned kinds)
+{
+    return ((kinds & PAD_SQUARE) != 0U ? box_edge_mm(&square) : 0.0) +
+           ((kinds & PAD_RECTANGLE) != 0U ? box_edge_mm(&rectangle) : 0.0) +
+           ((kinds & PAD_SMALL_RING) != 0U ? annulus_edge_mm(&small_ring) : 0.0) +
+           ((kinds & PAD_RING) != 0U ? annulus_edge_mm(&ring) : 0.0);
+}
+
+double pad_area_mm2(unsigned kinds)
+{
+    return ((kinds & PAD_SQUARE) != 0U ? square.width_mm * square.height_mm : 0.0) +
+           ((kinds & PAD_RECTANGLE) != 0U ? rectangle.width_mm * rectangle.height_mm : 0.0) +
+           ((kinds & PAD_SMALL_RING) != 0U ? annulus_area_mm2(&small_ring) : 0.0) +
+           ((kinds & PAD_RING) != 0U ? annulus_area_mm2(&ring) : 0.0);
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the pad lies before the camera, and what the camera then sees of each
+// of its shapes: exact perspective and lens, no small-angle formula.
+#ifndef TOUCHDOWN_PAD_VIEW_H
+#define TOUCHDOWN_PAD_VIEW_H
+
+#include <stdbool.h>
+
+#include "camera.h"
+#include "shapes.h"
+
+// The shapes, as bits: a sighting can be of several that have run together.
+enum pad_kind { PAD_SQUARE = 1, PAD_RECTANGLE = 2, PAD_SMALL_RING = 4, PAD_RING = 8 };
+#define PAD_KINDS 4
+#define PAD_INNER (PAD_SQUARE | PAD_RECTANGLE | PAD_SMALL_RING)
+
+// What is estimated.
+enum pad_parameter {
+    PAD_X_PX,            // image of the ring's physical centre
+    PAD_Y_PX,
+    PAD_LOG_DISTANCE_MM, // ln of the distance from the camera to that centre
+    PAD_YAW_RAD,         // direction of the pad's x axis about the optical axis, clockwise in the image
+    PAD_TILT_X,          // the pad's normal is (tilt x, tilt y, 1) in camera axes
+    PAD_TILT_Y,
+    PAD_EDGE_PX,         // by how much edges appear moved outwards: blur, bloom and threshold
+    PAD_PARAMETERS
+};
+
+struct pad_view {
+    double value[PAD_PARAMETERS];
+};
+
+// The plane of the pad in camera axes, mm.
+struct pad_plane {
+    double centre[3];
+    double across[3]; // unit vectors: the pad's x and y
+    double down[3];
+    double normal[3];
+};
+
+// Fails when the centre is outside of what the camera can see.
+int pad_plane_of(const struct pad_view *view, const struct camera *camera, struct pad_plane *plane);
+
+// Image of a point of the pad.
+void pad_plane_project(const struct pad_plane *plane, const struct camera *camera, double x_mm, double y_mm,
+                       double *x_px, double *y_px);
+
+// Point of the pad that is seen at a pixel. Fails when the pixel looks past the plane.
+int pad_plane_unproject(const struct pad_plane *plane, const struct camera *camera, double x_px, double y_px,
+                        double *x_mm, double *y_mm);
+
+// Moments of the image of the shapes in `kinds`, taken as one. `clipped`: only
+// what lies inside the frame, on a finer grid; else the whole, as if the frame
+// had no border. The invariant is not computed.
+// Returns the share of the shapes' print that is inside the frame; 0 leaves `seen` undefined.
+double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds, bool clipped,
+                         struct shape *seen);
+
+// Length of the shapes' edges and their area.
+double pad_edge_mm(unsigned kinds);
+double pad_area_mm2(unsigned kinds);
+
+#endif
