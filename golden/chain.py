@@ -10,7 +10,7 @@ from golden.ccl import ccl
 from golden.dilate3x3 import dilate3x3
 from golden.erode3x3 import erode3x3
 from golden.gaussian5x5 import gaussian5x5
-from golden.generated.landing_regs import OBJECT_DTYPE
+from golden.generated.landing_regs import OBJECT_DTYPE, THRESHOLD_FACTOR_SHIFT, THRESHOLD_FLAT_LIMIT_SHIFT
 from golden.median5x5 import median5x5
 from golden.rgb2gray import rgb2gray
 from golden.threshold_apply import threshold_apply
@@ -23,18 +23,25 @@ class Settings:
 
     Attributes:
         factor: THRESHOLD.factor, Q1.8.
+        flat_limit: THRESHOLD.flat_limit, gray levels.
         dark_is_one: CTRL.dark_is_one.
         label_zeros: CTRL.label_zeros.
         min_area: MIN_AREA, pixels.
     """
 
     factor: int = 128
+    flat_limit: int = 16
     dark_is_one: bool = True
     label_zeros: bool = False
     min_area: int = 100
 
+    @property
+    def threshold_register(self) -> int:
+        """The register THRESHOLD."""
+        return self.flat_limit << THRESHOLD_FLAT_LIMIT_SHIFT | self.factor << THRESHOLD_FACTOR_SHIFT
 
-PAPER = Settings(factor=64, dark_is_one=False, label_zeros=True, min_area=30)
+
+PAPER = Settings(factor=64, flat_limit=0, dark_is_one=False, label_zeros=True, min_area=30)
 """The paper's order of things, which the registers hold after reset."""
 
 
@@ -86,7 +93,7 @@ def run_chain(rgb: np.ndarray, stats_before: WindowStats | None, settings: Setti
         rgb=rgb,
         gray=gray,
         smooth=smooth,
-        stats=threshold_stats(smooth, settings.factor),
+        stats=threshold_stats(smooth, settings.factor, flat_limit=settings.flat_limit),
         stats_before=stats_before,
         binary=binary,
         eroded=eroded,

@@ -48,6 +48,39 @@ def test_stats_equal_plain_loops(width: int, height: int) -> None:
                 assert stats.beats()[row, column] == (high << 24 | low << 16 | threshold)
 
 
+@pytest.mark.parametrize(("width", "height"), [(8, 8), (9, 9), (37, 41), (64, 7), (7, 64), (64, 64)])
+def test_flat_windows_equal_a_search(width: int, height: int) -> None:
+    """The window that a flat one takes its threshold from, found by walking left and up instead of passing it on."""
+    rng = np.random.default_rng(width * 100 + height)
+    for flat_limit in (0, 1, 16, 40, 120, 255):
+        amplitude = rng.choice([1, 16, 17, 41, 200], (window_count(height, 3), window_count(width, 3)))
+        noise = rng.integers(0, np.kron(amplitude, np.ones((8, 8), dtype=np.int64))[:height, :width])
+        gray = (noise + rng.integers(0, 56)).astype(np.uint8)
+        own, got = threshold_stats(gray, 77, 3), threshold_stats(gray, 77, 3, flat_limit)
+        np.testing.assert_array_equal(got.minimum, own.minimum)
+        np.testing.assert_array_equal(got.maximum, own.maximum)
+        flat = own.maximum.astype(np.int64) - own.minimum < flat_limit
+        for place, threshold in np.ndenumerate(got.threshold):
+            source = place
+            while flat[source] and source != (0, 0):
+                row, column = source
+                source = (row, column - 1) if column else (row - 1, 0)
+            assert threshold == own.threshold[source]
+
+
+def test_flat_windows_by_hand() -> None:
+    """Windows of 2x2, limit 10: 9 is flat, 10 is not; each flat one with the threshold that is written beside it."""
+    minimum = np.array([[50, 10, 20], [30, 90, 60], [70, 80, 100]])
+    spread = np.array([[9, 10, 9], [9, 9, 40], [0, 20, 9]])
+    gray = np.kron(minimum, np.ones((2, 2), dtype=np.int64))
+    gray[1::2, 1::2] += spread
+    stats = threshold_stats(gray.astype(np.uint8), 128, 1, 10)
+    expected = np.array([[54.5, 15, 15], [54.5, 54.5, 80], [54.5, 90, 90]])
+    np.testing.assert_array_equal(stats.threshold, expected * 256)
+    np.testing.assert_array_equal(stats.minimum, minimum)
+    np.testing.assert_array_equal(stats.maximum, minimum + spread)
+
+
 @pytest.mark.parametrize("factor", range(257))
 def test_every_factor_and_spread(factor: int) -> None:
     """All pairs of least and greatest pixel at each factor."""
@@ -114,3 +147,6 @@ def test_wrong_shapes_are_refused() -> None:
         threshold_stats(np.zeros((0, 4), dtype=np.uint8), 64)
     with pytest.raises(ValueError, match="factor"):
         threshold_stats(np.zeros((1, 4), dtype=np.uint8), -1)
+    for flat_limit in (-1, 256):
+        with pytest.raises(ValueError, match="flat limit"):
+            threshold_stats(np.zeros((1, 4), dtype=np.uint8), 64, flat_limit=flat_limit)

@@ -100,7 +100,7 @@ def verilated(frames: FrameList, settings: Settings, out_dir: Path, memory: Memo
         "frames": frames.path,
         "out": out_dir,
         "frame-clocks": 0,
-        "factor": settings.factor,
+        "threshold": settings.threshold_register,
         "min-area": settings.min_area,
         "ctrl": ctrl_value(settings),
         "random-memory": int(memory.random),

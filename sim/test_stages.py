@@ -21,7 +21,7 @@ CLK_NS = 10
 FIRMWARE = Settings()
 ALL_OBJECTS = Settings(min_area=0)
 BRIGHT = Settings(factor=150, dark_is_one=False, min_area=1)
-DARK_ZEROS = Settings(factor=0, dark_is_one=True, label_zeros=True, min_area=2)
+DARK_ZEROS = Settings(factor=0, flat_limit=245, dark_is_one=True, label_zeros=True, min_area=2)
 
 
 def textured(seed: int, width: int, height: int) -> np.ndarray:
@@ -42,7 +42,7 @@ def textured(seed: int, width: int, height: int) -> np.ndarray:
         pytest.param(16, 16, ALL_OBJECTS, Memory(random=True, seed=2), id="16x16-smallest"),
         pytest.param(131, 129, PAPER, Memory(random=True, seed=3), id="131x129-paper-cut-windows"),
         pytest.param(255, 33, BRIGHT, Memory(random=True, seed=4), id="255x33-bright"),
-        pytest.param(300, 140, DARK_ZEROS, Memory(), id="300x140-zeros"),
+        pytest.param(300, 140, DARK_ZEROS, Memory(), id="300x140-zeros-flat-windows"),
     ],
 )
 def test_small_frames(width: int, height: int, settings: Settings, memory: Memory, tmp_path: Path) -> None:

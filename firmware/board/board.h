@@ -18,4 +18,8 @@
 // value is 0.25, the paper's; 0.5 finds washed-out pads as well.
 #define BOARD_THRESHOLD_FACTOR 128U
 
+// A window of 128x128 with less contrast shows paper or a black shape alone, and
+// is judged by its neighbour's threshold. The noise of a camera stays below it.
+#define BOARD_FLAT_LIMIT 16U
+
 #endif

@@ -56,6 +56,7 @@ module landing_regs_bus (
   wire [15:0] frame_size_width;
   wire [15:0] frame_size_height;
   wire [8:0] threshold_factor;
+  wire [7:0] threshold_flat_limit;
   wire [31:0] min_area_pixels;
   wire [31:0] ring_base_address;
   wire lidar_ctrl_enable;

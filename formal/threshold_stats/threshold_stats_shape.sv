@@ -9,6 +9,7 @@ module threshold_stats_shape #(
     input wire clk,
     input wire rst,
     input wire [8:0] cfg_factor,
+    input wire [7:0] cfg_flat_limit,
     input wire m_stat_axis_tready,
     input wire [7:0] s_axis_tdata,
     input wire s_axis_tvalid,

@@ -11,6 +11,7 @@ module threshold_stats_stream #(
     input wire [15:0] cfg_width,
     input wire [15:0] cfg_height,
     input wire [8:0] cfg_factor,
+    input wire [7:0] cfg_flat_limit,
     input wire m_stat_axis_tready,
     input wire [7:0] s_axis_tdata,
     input wire s_axis_tvalid,

@@ -49,6 +49,8 @@ FRAME_SIZE_HEIGHT_SHIFT = 16
 THRESHOLD_OFFSET = 0x10
 THRESHOLD_FACTOR_MASK = 0x000001FF
 THRESHOLD_FACTOR_SHIFT = 0
+THRESHOLD_FLAT_LIMIT_MASK = 0x00FF0000
+THRESHOLD_FLAT_LIMIT_SHIFT = 16
 MIN_AREA_OFFSET = 0x14
 MIN_AREA_PIXELS_MASK = 0xFFFFFFFF
 MIN_AREA_PIXELS_SHIFT = 0
@@ -170,7 +172,10 @@ REGISTERS = (
     Register(
         "THRESHOLD",
         0x10,
-        (Field("factor", 0, 9, "rw", 0x40),),
+        (
+            Field("factor", 0, 9, "rw", 0x40),
+            Field("flat_limit", 16, 8, "rw", 0x0),
+        ),
     ),
     Register(
         "MIN_AREA",

@@ -114,6 +114,7 @@ module landing_core #(
     wire [15:0] size_width;
     wire [15:0] size_height;
     wire [8:0]  threshold_factor;
+    wire [7:0]  threshold_flat_limit;
     wire [31:0] min_area;
     wire [31:0] ring_base;
     wire        lidar_enable;
@@ -190,6 +191,7 @@ module landing_core #(
         .frame_size_width(size_width),
         .frame_size_height(size_height),
         .threshold_factor(threshold_factor),
+        .threshold_flat_limit(threshold_flat_limit),
         .min_area_pixels(min_area),
         .ring_base_address(ring_base),
         .ring_info_buffers(BUFFERS[7:0]),
@@ -262,6 +264,7 @@ module landing_core #(
     reg [15:0] width_reg;
     reg [15:0] height_reg;
     reg [8:0]  factor_reg;
+    reg [7:0]  flat_limit_reg;
     reg        dark_is_one_reg;
     reg        label_zeros_reg;
     reg [31:0] min_area_reg;
@@ -271,6 +274,7 @@ module landing_core #(
             width_reg <= size_width;
             height_reg <= size_height;
             factor_reg <= threshold_factor;
+            flat_limit_reg <= threshold_flat_limit;
             dark_is_one_reg <= ctrl_dark_is_one;
             label_zeros_reg <= ctrl_label_zeros;
             min_area_reg <= min_area;
@@ -292,6 +296,7 @@ module landing_core #(
         .cfg_width(width_reg),
         .cfg_height(height_reg),
         .cfg_factor(factor_reg),
+        .cfg_flat_limit(flat_limit_reg),
         .cfg_dark_is_one(dark_is_one_reg),
         .s_axis_tdata(rgb_tdata),
         .s_axis_tvalid(rgb_tvalid),

@@ -18,6 +18,7 @@ module pixel_chain #(
     input wire [15:0] cfg_width,
     input wire [15:0] cfg_height,
     input wire [8:0]  cfg_factor,
+    input wire [7:0]  cfg_flat_limit,
     input wire        cfg_dark_is_one,
 
     input  wire [23:0] s_axis_tdata,
@@ -93,6 +94,7 @@ module pixel_chain #(
         .cfg_width(cfg_width),
         .cfg_height(cfg_height),
         .cfg_factor(cfg_factor),
+        .cfg_flat_limit(cfg_flat_limit),
         .s_axis_tdata(smooth_tdata),
         .s_axis_tvalid(smooth_tvalid),
         .s_axis_tready(smooth_tready),

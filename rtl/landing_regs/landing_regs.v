@@ -42,6 +42,7 @@ module landing_regs (
     output wire [15:0] frame_size_width,
     output wire [15:0] frame_size_height,
     output wire [8:0] threshold_factor,
+    output wire [7:0] threshold_flat_limit,
     output wire [31:0] min_area_pixels,
     output wire [31:0] ring_base_address,
     input wire [7:0] ring_info_buffers,
@@ -149,6 +150,7 @@ module landing_regs (
     reg [15:0] frame_size_width_reg;
     reg [15:0] frame_size_height_reg;
     reg [8:0] threshold_factor_reg;
+    reg [7:0] threshold_flat_limit_reg;
     reg [31:0] min_area_pixels_reg;
     reg [31:0] ring_base_address_reg;
     reg irq_status_frame_done_reg;
@@ -170,6 +172,7 @@ module landing_regs (
     assign frame_size_width = frame_size_width_reg;
     assign frame_size_height = frame_size_height_reg;
     assign threshold_factor = threshold_factor_reg;
+    assign threshold_flat_limit = threshold_flat_limit_reg;
     assign min_area_pixels = min_area_pixels_reg;
     assign ring_base_address = ring_base_address_reg;
     assign lidar_ctrl_enable = lidar_ctrl_enable_reg;
@@ -195,6 +198,7 @@ module landing_regs (
         if (frame_size_write && w_strb_reg[3]) frame_size_height_reg[15:8] <= w_data_reg[31:24];
         if (threshold_write && w_strb_reg[0]) threshold_factor_reg[7:0] <= w_data_reg[7:0];
         if (threshold_write && w_strb_reg[1]) threshold_factor_reg[8] <= w_data_reg[8];
+        if (threshold_write && w_strb_reg[2]) threshold_flat_limit_reg <= w_data_reg[23:16];
         if (min_area_write && w_strb_reg[0]) min_area_pixels_reg[7:0] <= w_data_reg[7:0];
         if (min_area_write && w_strb_reg[1]) min_area_pixels_reg[15:8] <= w_data_reg[15:8];
         if (min_area_write && w_strb_reg[2]) min_area_pixels_reg[23:16] <= w_data_reg[23:16];
@@ -231,6 +235,7 @@ module landing_regs (
             frame_size_width_reg <= 16'h500;
             frame_size_height_reg <= 16'h2D0;
             threshold_factor_reg <= 9'h40;
+            threshold_flat_limit_reg <= 8'h0;
             min_area_pixels_reg <= 32'h1E;
             ring_base_address_reg <= 32'h0;
             irq_status_frame_done_reg <= 1'h0;
@@ -266,7 +271,7 @@ module landing_regs (
             10'h1: read_data = {8'h0, 8'h0, 8'h1, 8'h0};  // VERSION
             10'h2: read_data = {29'h0, ctrl_label_zeros_reg, ctrl_dark_is_one_reg, ctrl_enable_reg};  // CTRL
             10'h3: read_data = {frame_size_height_reg, frame_size_width_reg};  // FRAME_SIZE
-            10'h4: read_data = {23'h0, threshold_factor_reg};  // THRESHOLD
+            10'h4: read_data = {8'h0, threshold_flat_limit_reg, 7'h0, threshold_factor_reg};  // THRESHOLD
             10'h5: read_data = min_area_pixels_reg;  // MIN_AREA
             10'h6: read_data = ring_base_address_reg;  // RING_BASE
             10'h7: read_data = {ring_info_max_objects, 8'h0, ring_info_buffers};  // RING_INFO

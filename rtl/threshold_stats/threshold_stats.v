@@ -4,6 +4,9 @@
 // Windows are squares of 2**WINDOW_LOG2 pixels from the top left corner; the last of a row and the last row may be cut.
 // m_stat_axis_tdata = {max, min, threshold}, threshold in Q8.8 = (min << 8) + factor * (max - min), exact, at most
 // 16'hFF00. cfg_factor is Q1.8; more than 256 acts as 256; sampled, like the size, with the start of each frame.
+// A window with max - min < cfg_flat_limit (sampled alike) is flat: it shows one surface, and its extremes are noise.
+// Its threshold is that of the window to its left; in the first column, above it; the first window keeps its own.
+// Thresholds go on through any number of flat windows. 0: no window is flat.
 // A row of windows is told after its last pixel was handed over, and before the first pixel of the next frame is
 // offered; a frame that is cut off tells no row that it did not complete.
 //
@@ -26,6 +29,7 @@ module threshold_stats #(
     input wire [15:0] cfg_width,
     input wire [15:0] cfg_height,
     input wire [ 8:0] cfg_factor,
+    input wire [ 7:0] cfg_flat_limit,
 
     input  wire [7:0] s_axis_tdata,
     input  wire       s_axis_tvalid,
@@ -77,6 +81,7 @@ module threshold_stats #(
   wire p_top;
   wire p_row_end;
   wire [8:0] p_factor;
+  wire [7:0] p_flat_limit;
   reg busy_reg;  // A row of windows is complete and not all of it handed over.
   wire hold = busy_reg && (m_axis_tuser || p_row_end);
   wire take = m_axis_tvalid && m_axis_tready;
@@ -121,22 +126,30 @@ module threshold_stats #(
   reg row_bank_reg;
   reg [COLUMN_BITS-1:0] row_last_reg;
   reg [8:0] factor_reg;
+  reg [7:0] flat_limit_reg;
   reg walk_reg;
   reg [COLUMN_BITS-1:0] walk_column_reg;
-  wire walk_first = row_first_reg && walk_column_reg == {COLUMN_BITS{1'b0}};
+  wire walk_left = walk_column_reg == {COLUMN_BITS{1'b0}};
+  wire walk_first = row_first_reg && walk_left;
   wire walk_last = walk_column_reg == row_last_reg;
   wire go = !m_stat_axis_tvalid || m_stat_axis_tready;
   reg [2:0] t_valid_reg;
   reg [2:0] t_user_reg;
   reg [2:0] t_last_reg;
+  reg [2:0] t_left_reg;
   reg [15:0] t0_extremes_reg;
   reg [15:0] t1_extremes_reg;
   reg [7:0] t1_spread_reg;
   reg [15:0] t2_extremes_reg;
   reg [15:0] t2_product_reg;
+  reg t2_flat_reg;
   // At most 256 * 255, which 16 bits hold.
   wire unused_product;
   wire [15:0] product;
+  // A row of windows is told without a pause, so the left neighbour is the beat that stands at the output.
+  reg [15:0] above_reg;
+  wire [15:0] neighbour = t_left_reg[2] ? above_reg : m_stat_axis_tdata[15:0];
+  wire [15:0] threshold = t2_flat_reg ? neighbour : {t2_extremes_reg[7:0], 8'd0} + t2_product_reg;
 
   assign m_axis_tvalid = p_valid && !hold;
   assign {unused_product, product} = factor_reg * t1_spread_reg;
@@ -165,14 +178,14 @@ module threshold_stats #(
   );
 
   axis_skid #(
-      .WIDTH(22)
+      .WIDTH(30)
   ) slice (
       .clk      (clk),
       .rst      (rst),
-      .s_payload({s_axis_tdata, s_axis_tuser, eol, window_right, window_top, row_end, factor}),
+      .s_payload({s_axis_tdata, s_axis_tuser, eol, window_right, window_top, row_end, factor, cfg_flat_limit}),
       .s_valid  (accept),
       .s_ready  (s_axis_tready),
-      .m_payload({m_axis_tdata, m_axis_tuser, m_axis_tlast, p_right, p_top, p_row_end, p_factor}),
+      .m_payload({m_axis_tdata, m_axis_tuser, m_axis_tlast, p_right, p_top, p_row_end, p_factor, p_flat_limit}),
       .m_valid  (p_valid),
       .m_ready  (m_axis_tready && !hold)
   );
@@ -183,7 +196,7 @@ module threshold_stats #(
       left_reg       <= p_right;
       column_reg     <= p_right && !m_axis_tlast ? column + 1'b1 : column;
       first_row_reg  <= (m_axis_tuser || first_row_reg) && !p_row_end;
-      if (m_axis_tuser) factor_reg <= p_factor;
+      if (m_axis_tuser) {factor_reg, flat_limit_reg} <= {p_factor, p_flat_limit};
       if (p_row_end) begin
         bank_reg      <= !bank_reg;
         row_bank_reg  <= bank_reg;
@@ -228,15 +241,18 @@ module threshold_stats #(
       t_valid_reg <= {t_valid_reg[1:0], walk_reg};
       t_user_reg <= {t_user_reg[1:0], walk_first};
       t_last_reg <= {t_last_reg[1:0], walk_last};
+      t_left_reg <= {t_left_reg[1:0], walk_left};
       t0_extremes_reg <= extremes[{row_bank_reg, walk_column_reg}];
       t1_extremes_reg <= t0_extremes_reg;
       t1_spread_reg <= t0_extremes_reg[15:8] - t0_extremes_reg[7:0];
       t2_extremes_reg <= t1_extremes_reg;
       t2_product_reg <= product;
+      t2_flat_reg <= t1_spread_reg < flat_limit_reg && !t_user_reg[1];
       m_stat_axis_tvalid <= t_valid_reg[2];
       m_stat_axis_tuser <= t_user_reg[2];
       m_stat_axis_tlast <= t_last_reg[2];
-      m_stat_axis_tdata <= {t2_extremes_reg, {t2_extremes_reg[7:0], 8'd0} + t2_product_reg};
+      m_stat_axis_tdata <= {t2_extremes_reg, threshold};
+      if (t_valid_reg[2] && t_left_reg[2]) above_reg <= threshold;
     end
 
     if (rst) begin

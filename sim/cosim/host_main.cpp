@@ -70,7 +70,8 @@ private:
     void configure() {
         model_.write(LANDING_REG_RING_BASE_OFFSET, RamBoard::RING_ADDRESS);
         model_.write(LANDING_REG_FRAME_SIZE_OFFSET, frames_.height() << 16 | frames_.width());
-        model_.write(LANDING_REG_THRESHOLD_OFFSET, BOARD_THRESHOLD_FACTOR);
+        model_.write(LANDING_REG_THRESHOLD_OFFSET, BOARD_FLAT_LIMIT << LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT |
+                                                       BOARD_THRESHOLD_FACTOR << LANDING_REG_THRESHOLD_FACTOR_SHIFT);
         model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
         model_.write(LANDING_REG_LIDAR_CTRL_OFFSET, LANDING_REG_LIDAR_CTRL_ENABLE_MASK);
         model_.write(LANDING_REG_IRQ_ENABLE_OFFSET, LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK);

@@ -53,7 +53,7 @@ def registers(frames: FrameList, settings: Settings) -> list[tuple[int, int]]:
     return [
         (RING_BASE_OFFSET, RING_ADDRESS),
         (FRAME_SIZE_OFFSET, frames.height << FRAME_SIZE_HEIGHT_SHIFT | frames.width),
-        (THRESHOLD_OFFSET, settings.factor),
+        (THRESHOLD_OFFSET, settings.threshold_register),
         (MIN_AREA_OFFSET, settings.min_area),
         (LIDAR_CTRL_OFFSET, LIDAR_CTRL_ENABLE_MASK),
         (CTRL_OFFSET, ctrl_value(settings)),

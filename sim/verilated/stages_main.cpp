@@ -2,7 +2,7 @@
 // Shows frames to landing_core and writes what passes between its stages
 // (stage_taps.h) and its records (run_log.h).
 //
-// Arguments: frames=<file> out=<folder> frame-clocks=<n> factor=<n> min-area=<n>
+// Arguments: frames=<file> out=<folder> frame-clocks=<n> threshold=<n> min-area=<n>
 // ctrl=<n> random-memory=<0|1> seed=<n> taps=<0|1>
 #include <chrono>
 #include <cinttypes>
@@ -42,7 +42,7 @@ void run(const Arguments& arguments) {
 
     model.write(LANDING_REG_RING_BASE_OFFSET, RamBoard::RING_ADDRESS);
     model.write(LANDING_REG_FRAME_SIZE_OFFSET, frames.height() << 16 | frames.width());
-    model.write(LANDING_REG_THRESHOLD_OFFSET, static_cast<uint32_t>(arguments.number("factor")));
+    model.write(LANDING_REG_THRESHOLD_OFFSET, static_cast<uint32_t>(arguments.number("threshold")));
     model.write(LANDING_REG_MIN_AREA_OFFSET, static_cast<uint32_t>(arguments.number("min-area")));
     model.write(LANDING_REG_LIDAR_CTRL_OFFSET, LANDING_REG_LIDAR_CTRL_ENABLE_MASK);
     model.write(LANDING_REG_CTRL_OFFSET, static_cast<uint32_t>(arguments.number("ctrl")) | LANDING_REG_CTRL_ENABLE_MASK);

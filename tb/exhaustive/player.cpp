@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays beats from stdin into a verilated stream core at full speed and writes the beats that come out to stdout.
-// tb/exhaustive/test_every_input.py builds it, one core at a time, and runs it: player WIDTH HEIGHT FACTOR
+// tb/exhaustive/test_every_input.py builds it, one core at a time, and runs it: player WIDTH HEIGHT FACTOR FLAT_LIMIT
 //
 // A beat is 8 bytes: data in the low half; bit 0 (tuser) and bit 1 (tlast) of the high half.
-// SIZED: the core has cfg_width and cfg_height. STATS: its stat stream counts, under cfg_factor.
+// SIZED: the core has cfg_width and cfg_height. STATS: its stat stream counts, under cfg_factor and cfg_flat_limit.
 
 #include <cstdint>
 #include <cstdio>
@@ -20,8 +20,8 @@ static uint64_t beat_of(uint32_t data, bool user, bool last) {
 }
 
 int main(int argc, char **argv) {
-    if (argc != 4) {
-        std::fprintf(stderr, "touchdown: give WIDTH HEIGHT FACTOR.\n");
+    if (argc != 5) {
+        std::fprintf(stderr, "touchdown: give WIDTH HEIGHT FACTOR FLAT_LIMIT.\n");
         return 1;
     }
     VerilatedContext context;
@@ -37,6 +37,7 @@ int main(int argc, char **argv) {
 #endif
 #ifdef STATS
     top.cfg_factor = atoi(argv[3]);
+    top.cfg_flat_limit = atoi(argv[4]);
     top.m_stat_axis_tready = 1;
 #endif
     top.m_axis_tready = 1;

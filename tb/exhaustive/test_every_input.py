@@ -31,7 +31,10 @@ PARTS = {
     "erode3x3": (IMAGES, FRAMES),
     "median5x5": ([*IMAGES, "neighbourhoods"], f"{FRAMES}, and every 5x5 neighbourhood"),
     "rgb2gray": (["colours"], "{count} colours: all"),
-    "threshold_stats": (["factors"], "{count} windows: every factor and pair of extremes"),
+    "threshold_stats": (
+        ["factors", "flat limits"],
+        "{count} windows: every factor and flat limit, all pairs of extremes",
+    ),
 }
 """Runs of each core, and the figure of all of them."""
 WINDOW_BITS = 25
@@ -59,9 +62,9 @@ def build_filter(core: str) -> Path:
     return build(core, "-CFLAGS", "-DSIZED", f"-GMAX_WIDTH={MEDIAN_WIDTH}", "-GMAX_HEIGHT=8")
 
 
-def play(player: Path, beats: np.ndarray, width: int = 0, height: int = 0, factor: int = 0) -> np.ndarray:
-    """Send beats (uint64) and return what comes out."""
-    command = [str(player), str(width), str(height), str(factor)]
+def play(player: Path, beats: np.ndarray, *settings: int) -> np.ndarray:
+    """Send beats (uint64) and return what comes out; settings are width, height, factor, flat limit, by default 0."""
+    command = [str(player), *(str(value) for value in (*settings, 0, 0, 0, 0)[:4])]
     result = subprocess.run(command, input=beats.astype("<u8").tobytes(), capture_output=True, check=True)
     return np.frombuffer(result.stdout, dtype="<u8")
 
@@ -194,17 +197,26 @@ def test_every_neighbourhood_of_the_median() -> None:
     judge(core, "neighbourhoods", count, difference)
 
 
-def test_every_factor_and_spread() -> None:
-    width = 512
-    arguments = ("-CFLAGS", "-DSIZED -DSTATS", f"-GMAX_WIDTH={width}", "-GMAX_HEIGHT=512", "-GWINDOW_LOG2=1")
+def judge_spreads(part: str, settings: list[tuple[int, int]]) -> None:
+    """Every pair of extremes, in windows of 2x2, with each of these factors and flat limits."""
+    side = 512
+    arguments = ("-CFLAGS", "-DSIZED -DSTATS", f"-GMAX_WIDTH={side}", f"-GMAX_HEIGHT={side}", "-GWINDOW_LOG2=1")
     player = build("threshold_stats", *arguments)
     values = np.arange(256, dtype=np.uint8)
-    # Windows of 2x2: the first line gives one extreme, the second the other, in either order.
-    frame = np.empty((512, width), dtype=np.uint8)
+    # The first line gives one extreme, the second the other, in either order.
+    frame = np.empty((side, side), dtype=np.uint8)
     frame[0::2], frame[1::2] = np.repeat(values, 2)[None, :], values[:, None]
     difference = ""
-    for factor in range(257):
-        got = play(player, as_beats(frame[None]), width, 512, factor)
-        expected = as_beats(threshold_stats(frame, factor, 1).beats()[None])
+    for factor, flat_limit in settings:
+        got = play(player, as_beats(frame[None]), side, side, factor, flat_limit)
+        expected = as_beats(threshold_stats(frame, factor, 1, flat_limit).beats()[None])
         difference = difference or first_difference(got, expected)
-    judge("threshold_stats", "factors", 257 * 256 * 256, difference)
+    judge("threshold_stats", part, len(settings) * 256 * 256, difference)
+
+
+def test_every_factor_and_spread() -> None:
+    judge_spreads("factors", [(factor, 0) for factor in range(257)])
+
+
+def test_every_flat_limit_and_spread() -> None:
+    judge_spreads("flat limits", [(77, flat_limit) for flat_limit in range(256)])

@@ -89,7 +89,7 @@ class Bench:
         """Write the registers that a frame depends on."""
         self.settings, self.size = settings, size
         await self.write(regs.FRAME_SIZE_OFFSET, size[1] << 16 | size[0])
-        await self.write(regs.THRESHOLD_OFFSET, settings.factor)
+        await self.write(regs.THRESHOLD_OFFSET, settings.threshold_register)
         await self.write(regs.MIN_AREA_OFFSET, settings.min_area)
         dark = settings.dark_is_one << regs.CTRL_DARK_IS_ONE_SHIFT
         zeros = settings.label_zeros << regs.CTRL_LABEL_ZEROS_SHIFT

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""threshold_stats: the frame contract, each window's beat, the order against the video, latency and stall."""
+"""threshold_stats: frame contract, each window's beat, the order against the video, latency, stall, flat windows."""
 
+from collections.abc import Callable
 from random import Random, getrandbits
 
 import cocotb
@@ -19,6 +20,14 @@ SIDE = 1 << WINDOW_LOG2
 LIMITS = SizeLimits(1, 1, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
 CORE = VideoCore(golden=lambda frame: frame, bits_in=8, reach=0, limits=LIMITS)
 FACTORS = [0, 256, 64, 511, 1, 255, 257]
+FLAT_LIMITS = [0, 255, 16, 245, 1]
+"""245 takes a third of the windows of 8x8 random pixels."""
+FLAT_PLACES: dict[str, Callable[[Random, int, int], bool]] = {
+    "some": lambda rng, row, column: rng.random() < 0.6,
+    "first_window": lambda rng, row, column: row == column == 0,
+    "first_column": lambda rng, row, column: column == 0,
+    "all": lambda rng, row, column: True,
+}
 LATENCY = 1
 FIRST_BEAT_LATENCY = 7
 
@@ -28,11 +37,17 @@ def factor_of(first_pixel: int) -> int:
     return FACTORS[first_pixel % len(FACTORS)]
 
 
+def flat_limit_of(first_pixel: int) -> int:
+    """Return the flat limit that goes with a frame; 35 frames have every pair of it and a factor."""
+    return FLAT_LIMITS[first_pixel % len(FLAT_LIMITS)]
+
+
 async def begin(dut: HierarchyObject, stall: str) -> tuple[StreamBench, StreamSink]:
-    """Return bench and sink of the stat stream; cfg_factor is right with each start of frame only."""
+    """Return bench and sink of the stat stream; its configuration is right with each start of frame only."""
     rng = Random(getrandbits(64))
     stats = StreamSink(dut, "m_stat_axis", dut.clk, dut.rst, rng)
     dut.cfg_factor.value = 0
+    dut.cfg_flat_limit.value = 0
     bench = await start(dut, rng, stall)
     stats.pause = stalls(rng, STALLS[stall][1])
     set_size, scramble = bench.source.on_beat, Random(rng.getrandbits(64))
@@ -40,6 +55,7 @@ async def begin(dut: HierarchyObject, stall: str) -> tuple[StreamBench, StreamSi
     def on_beat(beat: Beat) -> None:
         set_size(beat)
         dut.cfg_factor.value = factor_of(beat.data) if beat.user else scramble.getrandbits(9)
+        dut.cfg_flat_limit.value = flat_limit_of(beat.data) if beat.user else scramble.getrandbits(8)
 
     bench.source.on_beat = on_beat
     return bench, stats
@@ -47,7 +63,8 @@ async def begin(dut: HierarchyObject, stall: str) -> tuple[StreamBench, StreamSi
 
 def expected_beats(frame: SentFrame) -> list[tuple[int, int, int]]:
     """Return (tdata, tuser, tlast) of the rows of windows that the pixels of a frame complete."""
-    values = threshold_stats(frame.image().astype(np.uint8), factor_of(frame.pixels[0]), WINDOW_LOG2).beats()
+    factor, flat_limit = factor_of(frame.pixels[0]), flat_limit_of(frame.pixels[0])
+    values = threshold_stats(frame.image().astype(np.uint8), factor, WINDOW_LOG2, flat_limit).beats()
     beats = []
     for row, line in enumerate(values.tolist()):
         if min((row + 1) * SIDE, frame.height) * frame.width <= len(frame.pixels):
@@ -116,6 +133,38 @@ async def cut_windows(dut: HierarchyObject, stall: str) -> None:
     sizes = [(w, h) for w in some for h in some if LIMITS.allow(w, h)]
     rng.shuffle(sizes)
     await run(dut, stall, [beat for size in affordable(sizes) for beat in frame_beats(random_frame(rng, *size, 8))])
+
+
+def patchy_frame(rng: Random, width: int, height: int, flat_limit: int, place: str) -> np.ndarray:
+    """Return a frame for this limit whose windows at `place` are flat, by one step or wholly, and the others not."""
+    first = rng.choice([pixel for pixel in range(256) if flat_limit_of(pixel) == flat_limit])
+    frame = random_frame(rng, width, height, 8)
+    for row in range(window_count(height, WINDOW_LOG2)):
+        for column in range(window_count(width, WINDOW_LOG2)):
+            flat = flat_limit > 0 and FLAT_PLACES[place](rng, row, column)
+            spread = rng.choice([0, flat_limit - 1] if flat else [flat_limit, rng.randint(flat_limit, 255), 255])
+            low = rng.randint(0, 255 - spread) if row or column else min(first, 255 - spread)
+            window = frame[row * SIDE : (row + 1) * SIDE, column * SIDE : (column + 1) * SIDE]
+            window[:] = low + window % (spread + 1)
+            window.flat[-1], window.flat[0] = low + spread, low
+    frame[0, 0] = first
+    return frame
+
+
+@cocotb.test()
+@cocotb.parametrize(place=list(FLAT_PLACES), stall=["full_speed", "idle_backpressure"])
+async def flat_windows(dut: HierarchyObject, place: str, stall: str) -> None:
+    """Flat windows take a neighbour's threshold; the limit changes with each frame, and frames are cut off between."""
+    rng = Random(getrandbits(64))
+    long = 2 * SIDE + 1 if SIDE > 8 else 4 * SIDE + 1
+    short = 3 if SIDE > 8 else long  # Windows of 128 in both directions make frames that take long to simulate.
+    sizes = [(min(w, LIMITS.max_width), min(h, LIMITS.max_height)) for w, h in ((long, short), (short, long))]
+    beats: list[Beat] = []
+    for flat_limit in [*FLAT_LIMITS, *rng.sample(FLAT_LIMITS, len(FLAT_LIMITS))]:
+        size = rng.choice(sizes)
+        for keep in (size[0] * size[1], rng.randrange(size[0], size[0] * size[1])):
+            beats += frame_beats(patchy_frame(rng, *size, flat_limit, place))[:keep]
+    await run(dut, stall, beats)
 
 
 @cocotb.test()
