@@ -64,7 +64,7 @@ async def registers_hold_what_is_written(dut: HierarchyObject) -> None:
     await bench.reset()
     masks = {
         regs.FRAME_SIZE_OFFSET: 0xFFFFFFFF,
-        regs.THRESHOLD_OFFSET: regs.THRESHOLD_FACTOR_MASK,
+        regs.THRESHOLD_OFFSET: regs.THRESHOLD_FACTOR_MASK | regs.THRESHOLD_FLAT_LIMIT_MASK,
         regs.MIN_AREA_OFFSET: 0xFFFFFFFF,
         regs.RING_BASE_OFFSET: 0xFFFFFFFF,
         regs.SCRATCH_OFFSET: 0xFFFFFFFF,
@@ -225,6 +225,7 @@ async def configuration_counts_from_the_next_frame(dut: HierarchyObject) -> None
         change = replace(
             settings,
             factor=bench.rng.randrange(400),
+            flat_limit=bench.rng.randrange(256),
             min_area=bench.rng.choice((0, 5000)),
             dark_is_one=not settings.dark_is_one,
             label_zeros=bench.rng.random() < 0.5,
