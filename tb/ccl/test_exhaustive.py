@@ -17,13 +17,14 @@ from tb.common.lock import locked
 from tb.common.runner import OUTPUT, check_simulator
 
 GAPS = [(0, 0), (30, 0), (0, 60), (25, 40)]
-"""Idle input and stalled output cycles, per cent each."""
+"""Idle input and stalled output cycles, per cent each: none, then random ones."""
+BACK_TO_BACK_AND_GAPS = [GAPS[0], GAPS[-1]]
 NARROW = [(1, 12), (12, 1), (2, 8), (8, 2), (3, 5), (5, 3)]
 WHOLE = [(1280, 720), (1279, 719)]
 EXHAUSTIVE = [
     *(f"--idle {idle} --stall {stall} all 4 4" for idle, stall in GAPS),
     *(f"all {width} {height}" for width, height in NARROW),
-    "all 5 5",
+    *(f"--idle {idle} --stall {stall} all 5 5" for idle, stall in BACK_TO_BACK_AND_GAPS),
 ]
 """Runs of every image of a size: what sign-off wants to see."""
 
@@ -101,5 +102,6 @@ def test_hard_whole_frames_with_gaps(large: Path) -> None:
 
 
 @pytest.mark.full
-def test_every_5x5_image(small: Path) -> None:
-    run(small, "all", 5, 5)
+@pytest.mark.parametrize(("idle", "stall"), BACK_TO_BACK_AND_GAPS)
+def test_every_5x5_image(small: Path, idle: int, stall: int) -> None:
+    run(small, "--idle", idle, "--stall", stall, "all", 5, 5)
