@@ -250,7 +250,8 @@ class PulseCounter:
 class StreamBench:
     """Clock, reset, one `s_axis` source, one `m_axis` sink, both checked, and `frame_error` counted.
 
-    A core with more streams adds its own `StreamSource`, `StreamSink` or `StreamMonitor` beside `source` and `sink`.
+    A core with more streams adds its own `StreamSource`, `StreamSink` or `StreamMonitor` beside `source` and `sink`,
+    and their `taken` to `logs`.
     Beats with a `size` set `cfg_width`/`cfg_height` as they are offered.
     """
 
@@ -263,6 +264,7 @@ class StreamBench:
         self.sink = StreamSink(dut, sink, dut.clk, dut.rst, rng)
         has_error = hasattr(dut, "frame_error")
         self.errors = PulseCounter(dut.frame_error, dut.clk, dut.rst) if has_error else None
+        self.logs: list[list[Any]] = [self.input.taken, self.sink.taken]
         if hasattr(dut, "cfg_width"):
             dut.cfg_width.value = 0
             dut.cfg_height.value = 0
@@ -278,11 +280,18 @@ class StreamBench:
             await RisingEdge(self.dut.clk)
 
     async def reset(self, cycles: int = 3) -> None:
-        """Reset the core; the source drops what it had."""
+        """Reset the core; the source drops what it had.
+
+        `logs` and the count of `frame_error` end up empty, but for what the first clock after the reset brings.
+        """
         await RisingEdge(self.dut.clk)
         self.dut.rst.value = 1
         self.source.stop()
         await self.cycles(cycles)
+        for log in self.logs:
+            log.clear()
+        if self.errors:
+            self.errors.count = 0
         self.dut.rst.value = 0
         await RisingEdge(self.dut.clk)
 

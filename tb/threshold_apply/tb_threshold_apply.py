@@ -107,6 +107,7 @@ class Bench:
         self.dut.cfg_dark_is_one.value = 0
         # The stat stream counts cycles from the same edge as the others.
         self.video = await start(self.dut, self.rng, self.stall)
+        self.video.logs += [self.told.taken, self.sent, self.levels]
         self.stats.pause = stalls(Random(self.rng.getrandbits(64)), STALLS[self.stall][0])
         set_size = self.video.source.on_beat
 
