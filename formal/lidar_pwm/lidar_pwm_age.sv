@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lidar_pwm: what is shown is never older than it says, nor valid when too old; no counter wraps. For any state that
-// the registers can be in, so also for a core that has run for years.
+// lidar_pwm: what is shown is never older than it says, nor valid when too old; a stuck pin is told in time; no counter
+// wraps. For any state that the registers can be in, so also for a core that has run for years.
 `default_nettype none
 
 module lidar_pwm_age #(
@@ -32,9 +32,23 @@ module lidar_pwm_age #(
 
   power_up start (.*);
 
+  // A microsecond has some clocks, so that a change of state, which costs one, never meets the next tick.
+  localparam CLK_PER_US = 4;
+  reg [2:0] since_tick;
+  always @(posedge clk) since_tick <= tick_us || rst ? 3'd1 : since_tick + {2'd0, since_tick != CLK_PER_US};
+  always @* if (known && tick_us) assume (since_tick == CLK_PER_US);
+
   (* hierconn *) wire [31:0] \dut.time_reg ;
   (* hierconn *) wire [2:0] \dut.state_reg ;
   (* hierconn *) wire [15:0] \dut.filter_reg ;
+  (* hierconn *) wire [1:0] \dut.sync_reg ;
+  (* hierconn *) wire \dut.level_reg ;
+
+  localparam [2:0] OFF = 3'd0;
+  localparam [2:0] WAIT_LOW = 3'd1;
+  localparam [2:0] WAIT_HIGH = 3'd2;
+  localparam [2:0] MEASURE = 3'd3;
+  localparam [2:0] RELEASE = 3'd4;
 
   reg known = 1'b0;
   reg was_rst, was_enabled, was_tick, was_valid;
@@ -51,6 +65,48 @@ module lidar_pwm_age #(
   end
 
   wire [31:0] grown = was_tick && was_age != 32'hFFFFFFFF ? was_age + 32'd1 : was_age;
+
+  // How long the pin has been at its level: in clocks until the filter must follow, then in microseconds.
+  localparam [31:0] FILTER_DELAY = FILTER_CYCLES + 2;
+  localparam [31:0] FOREVER = 32'hFFFFFFFF;
+  reg  pin_level;
+  reg [31:0] pin_clocks, stuck_us;
+  wire [31:0] pin_clocks_next = lidar_in != pin_level ? 32'd1 : pin_clocks + {31'd0, pin_clocks != FILTER_DELAY};
+  always @(posedge clk) begin
+    pin_level  <= lidar_in;
+    pin_clocks <= pin_clocks_next;
+    stuck_us   <= !enable || pin_clocks_next != FILTER_DELAY ? 32'd0 : stuck_us + {31'd0, tick_us && stuck_us != FOREVER};
+    if (rst) {pin_clocks, stuck_us} <= 64'd0;
+  end
+
+  localparam LOW_LIMIT = START_TIMEOUT_US + RELEASE_US + 3;
+  localparam HIGH_LIMIT = MAX_MM + RELEASE_US + 3;
+
+  always @(posedge clk)
+    if (known) begin
+      if (stuck_us > LOW_LIMIT && !pin_level) assert (timeout);
+      if (stuck_us > HIGH_LIMIT && pin_level) assert (too_long);
+      // For induction: what the filter must hold, and how long the pin can have stuck by now without a word of it.
+      assert (since_tick >= 3'd1 && since_tick <= CLK_PER_US);
+      assert (pin_clocks <= FILTER_DELAY);
+      if (pin_clocks >= 32'd1) assert (\dut.sync_reg [0] == pin_level);
+      if (pin_clocks >= 32'd2) begin
+        assert (\dut.sync_reg [1] == pin_level);
+        assert (\dut.level_reg == pin_level || {16'd0, \dut.filter_reg } >= pin_clocks - 32'd2);
+      end
+      if (stuck_us != 32'd0) assert (pin_clocks == FILTER_DELAY);
+      if (stuck_us != 32'd0 && !(pin_level ? too_long : timeout))
+        case (\dut.state_reg )
+          WAIT_LOW: begin
+            assert (!pin_level || stuck_us <= RELEASE_US + 2 + \dut.time_reg );
+            assert (pin_level || stuck_us <= 32'd2 || stuck_us <= RELEASE_US + 2 && since_tick == 3'd2);
+          end
+          WAIT_HIGH: assert (pin_level ? stuck_us <= 32'd2 : stuck_us <= RELEASE_US + 2 + \dut.time_reg );
+          MEASURE: assert (pin_level ? stuck_us <= RELEASE_US + 2 + \dut.time_reg : stuck_us <= 32'd2);
+          RELEASE: assert (stuck_us <= \dut.time_reg + 32'd1);
+          default: assert (1'b0);
+        endcase
+    end
 
   always @(posedge clk)
     if (known) begin
@@ -70,10 +126,11 @@ module lidar_pwm_age #(
       assert ({1'b0, timeout} + {1'b0, too_long} + {1'b0, too_short} <= 2'd1);
       // Counters: far below the end of their range.
       case (\dut.state_reg )
-        3'd0: ;
-        3'd1, 3'd3: assert (\dut.time_reg <= MAX_MM + 1);
-        3'd2: assert (\dut.time_reg <= START_TIMEOUT_US + 1);
-        3'd4: assert (\dut.time_reg <= RELEASE_US + 1);
+        OFF: ;
+        WAIT_LOW: assert (\dut.time_reg <= MAX_MM + (since_tick == 3'd1));
+        MEASURE: assert (\dut.time_reg <= MAX_MM + (since_tick == 3'd1));
+        WAIT_HIGH: assert (\dut.time_reg <= START_TIMEOUT_US + (since_tick == 3'd1));
+        RELEASE: assert (\dut.time_reg <= RELEASE_US + (since_tick == 3'd1));
         default: assert (1'b0);
       endcase
       assert (\dut.filter_reg < FILTER_CYCLES);

@@ -17,7 +17,8 @@
 //   too_long   high for more than MAX_MM us (stuck high, or out of range)
 //   too_short  the last pulse was shorter than MIN_MM us
 // After timeout and too_long the pin is released for RELEASE_US and pulled low again: a new trigger.
-// Stuck high is reported within MAX_MM + RELEASE_US, stuck low within START_TIMEOUT_US + RELEASE_US (plus 3) us.
+// Stuck high is reported within MAX_MM + RELEASE_US + 3 us, stuck low within START_TIMEOUT_US + RELEASE_US + 3 us after
+// the filter has seen it, with 4 clocks or more in a microsecond.
 // Limits: a constant offset of the sensor looks like a good pulse.
 
 `default_nettype none
