@@ -7,7 +7,7 @@
 // Latency: the outputs hold a frame's values in the clock after its last_pixel, if it is the oldest; ccl offers its
 // trailer later than that.
 // Overflow: none. Each entry has its trailer in the queue of ccl or in the pipeline before it, for which that queue
-// keeps room; so there are never more entries than DEPTH, the depth of that queue (ccl_send).
+// keeps room; so there are never more entries than DEPTH, the depth of that queue (ccl_send). A test fills it.
 // Limits: frame_number and frame_start_us must still be those of the frame in the clock of its frame_started.
 
 `default_nettype none
