@@ -76,6 +76,10 @@ class Firmware:
             ctypes.c_uint64(now_us), lidar_mm is not None, ctypes.c_uint32(lidar_mm or 0), ctypes.c_uint32(age_us)
         )
 
+    def set_options(self, options: int) -> None:
+        """Let the detection do only what this mask of DETECT_* in `firmware/core/detect.h` allows."""
+        self._library.touchdown_set_options(ctypes.c_uint32(options))
+
     @property
     def min_area_px(self) -> int:
         """What the firmware would now write into MIN_AREA."""

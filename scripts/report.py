@@ -90,10 +90,27 @@ def write_report(path: Path, rows: list[Row], pictures: Iterable[np.ndarray], fa
         f"<section><h2>What was seen</h2><div class='pictures'>{figures}</div></section>",
         _run_facts(facts),
     ]
+    return write_page(path, facts.source, sections)
+
+
+def write_page(path: Path, title: str, sections: Iterable[str]) -> Path:
+    """Write a page in the project's style.
+
+    Args:
+        path: Where to.
+        title: For the browser, plain text.
+        sections: HTML.
+
+    Returns:
+        The path.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
     page = (
         "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
         "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>Touchdown: {html.escape(facts.source)}</title>"
+        f"<title>Touchdown: {html.escape(title)}</title>"
         f"<style>{_STYLE_SHEET.read_text(encoding='utf-8')}</style></head>"
         f"<body><main>{''.join(sections)}</main></body></html>\n"
     )

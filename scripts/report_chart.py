@@ -46,7 +46,7 @@ def chart(title: str, unit: str, names: list[str], series: list[Series], joined:
             f"<text class='tick' x='{_WIDTH / 2}' y='{_HEIGHT / 2}' text-anchor='middle'>no value</text></svg>"
         )
         return "".join(parts)
-    low, high, step = _scale(min(values), max(values))
+    low, high, step = round_scale(min(values), max(values))
 
     def across(index: int) -> float:
         share = 0.5 if len(names) == 1 else index / (len(names) - 1)
@@ -60,7 +60,7 @@ def chart(title: str, unit: str, names: list[str], series: list[Series], joined:
         y = down(value)
         parts.append(f"<line class='grid' x1='{_LEFT}' x2='{_WIDTH - _RIGHT}' y1='{y:.1f}' y2='{y:.1f}'/>")
         parts.append(
-            f"<text class='tick' x='{_LEFT - 6}' y='{y + 4:.1f}' text-anchor='end'>{_number(value, step)}</text>"
+            f"<text class='tick' x='{_LEFT - 6}' y='{y + 4:.1f}' text-anchor='end'>{tick_text(value, step)}</text>"
         )
     for index in sorted({0, len(names) - 1}):
         anchor = "start" if index == 0 and len(names) > 1 else "end" if len(names) > 1 else "middle"
@@ -106,7 +106,7 @@ def _runs(values: list[float | None]) -> list[list[int]]:
     return [run for run in runs if run]
 
 
-def _scale(least: float, greatest: float) -> tuple[float, float, float]:
+def round_scale(least: float, greatest: float) -> tuple[float, float, float]:
     """Round limits around the values, and the step between them."""
     span = greatest - least or abs(greatest) * 0.1 or 1.0
     magnitude = 10.0 ** math.floor(math.log10(span / _TICKS))
@@ -118,7 +118,8 @@ def _scale(least: float, greatest: float) -> tuple[float, float, float]:
     return low, high, step
 
 
-def _number(value: float, step: float) -> str:
+def tick_text(value: float, step: float) -> str:
+    """A value on an axis, with as many digits as the step needs."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))
     if round(step * 10**digits, 6) % 1:
         digits += 1

@@ -40,13 +40,12 @@ class Verdict:
     state: str
 
     @property
-    def sentence(self) -> str:
-        """The verdict in one line."""
+    def figure(self) -> str:
+        """The figure, beside what is asked for."""
         if self.value is None:
-            return f"{OPEN:7}  {self.goal.name}: not measured (sets: {', '.join(self.goal.sets)})"
+            return f"not measured (sets: {', '.join(self.goal.sets)})"
         few = f"; {self.goal.frames} are asked for" if self.frames < self.goal.frames else ""
-        figure = f"{self.value:.4g}, at most {self.goal.most:g}, {self.frames} frames{few}"
-        return f"{self.state:7}  {self.goal.name}: {figure}"
+        return f"{self.value:.4g}, at most {self.goal.most:g}, {self.frames} frames{few}"
 
 
 def load_goals(path: Path = GOALS) -> list[Goal]:

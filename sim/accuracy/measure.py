@@ -4,72 +4,85 @@
 import multiprocessing
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import cv2
 
-from golden.chain import Settings
 from scripts.demo_results import Row as Seen
 from sim.accuracy.paths import golden, rtl
 from sim.accuracy.rows import Row
-from sim.accuracy.shots import Shot, Unit
+from sim.accuracy.shots import Film, Unit, develop
 
 RUNS = ("golden", "rtl")
 SAY_EVERY_S = 10.0
-Measure = Callable[[Unit], list[Row]]
+Given = TypeVar("Given")
+Result = TypeVar("Result")
 
 
-def rows_of(unit: Unit, seen: Sequence[Seen]) -> list[Row]:
+def rows_of(film: Film, seen: Sequence[Seen]) -> list[Row]:
     """What was seen of each shot, beside what is true of it."""
-    return [_row(unit, shot, one) for shot, one in zip(unit.shots, seen, strict=True)]
+    rows = []
+    for shot, reference, one in zip(film.unit.shots, film.references, seen, strict=True):
+        header = one.record["header"]
+        rows.append(
+            Row(
+                set=film.unit.set,
+                name=shot.name,
+                difficulty=shot.difficulty,
+                strength=shot.strength,
+                reference=reference,
+                pad=one.pad,
+                altitude_m=one.altitude_m,
+                objects=int(header["object_count"]),
+                dropped=int(header["objects_dropped"]),
+                min_area_px=int(header["min_area"]),
+            )
+        )
+    return rows
 
 
-def _row(unit: Unit, shot: Shot, seen: Seen) -> Row:
-    header = seen.record["header"]
-    return Row(
-        set=unit.set,
-        name=shot.name,
-        difficulty=shot.difficulty,
-        strength=shot.strength,
-        reference=shot.reference,
-        pad=seen.pad,
-        altitude_m=seen.altitude_m,
-        objects=int(header["object_count"]),
-        dropped=int(header["objects_dropped"]),
-        min_area_px=int(header["min_area"]),
-    )
-
-
-def measure_golden(unit: Unit, settings: Settings | None = None, options: int | None = None) -> list[Row]:
+def measure_golden(unit: Unit) -> list[Row]:
     """Rows of a unit on the golden path."""
-    return rows_of(unit, golden(unit, settings, options).seen)
+    film = develop(unit)
+    return rows_of(film, golden(film).seen)
 
 
 def measure_rtl(unit: Unit) -> list[Row]:
     """Rows of a unit on the verilated RTL."""
+    film = develop(unit)
     with tempfile.TemporaryDirectory() as folder:
-        return rows_of(unit, rtl(unit, Path(folder)).seen)
+        return rows_of(film, rtl(film, Path(folder)).seen)
 
 
-def measure(units: Sequence[Unit], how: Measure, jobs: int, say: Callable[[str], None]) -> list[Row]:
-    """Rows of all units, in their order.
+class Workers:
+    """Several processes. What they give comes in the order of the tasks, whatever their number.
 
     Args:
-        units: What is measured.
-        how: What makes rows of a unit; goes to the other processes.
         jobs: Processes.
         say: Is told now and then how far it is.
     """
-    rows: list[Row] = []
-    said = time.monotonic()
-    with multiprocessing.get_context("spawn").Pool(jobs, _start) as pool:
-        for done, part in enumerate(pool.imap(how, units), start=1):
-            rows += part
-            if time.monotonic() - said > SAY_EVERY_S or done == len(units):
+
+    def __init__(self, jobs: int, say: Callable[[str], None]) -> None:
+        self._pool = multiprocessing.get_context("spawn").Pool(jobs, _start)
+        self._say = say
+
+    def __enter__(self) -> "Workers":
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self._pool.terminate()
+        self._pool.join()
+
+    def map(self, what: str, task: Callable[[Given], Result], given: Sequence[Given]) -> Iterator[Result]:
+        """The task done with each of `given`, which go to the processes as the task does; `what` names it."""
+        said = time.monotonic()
+        for done, result in enumerate(self._pool.imap(task, given), start=1):
+            yield result
+            if time.monotonic() - said > SAY_EVERY_S or done == len(given):
                 said = time.monotonic()
-                say(f"accuracy: {done} of {len(units)} done, {sum(row.missed for row in rows)} missed")
-    return rows
+                self._say(f"accuracy: {what}, {done} of {len(given)}")
 
 
 def _start() -> None:

@@ -163,20 +163,18 @@ def curve(rows: Sequence[Row]) -> list[Point]:
     return points
 
 
-def ends_at(points: Sequence[Point], rate: float, hardest_first: bool = False) -> float | None:
-    """Strength at which the rate of detection first falls below `rate`, between two points in a straight line.
+def ends_at(points: Sequence[Point], rate: float) -> float | None:
+    """Strength at which the rate of detection first falls below `rate`, on straight lines between the points.
 
     Args:
         points: A curve, by rising strength.
         rate: 0 to 1.
-        hardest_first: The disturbance is harder where its number is smaller, as contrast is.
 
     Returns:
         The strength; None where the rate never falls so low.
     """
-    way = list(reversed(points)) if hardest_first else list(points)
     before = None
-    for point in way:
+    for point in points:
         if point.rate < rate:
             if before is None:
                 return point.strength

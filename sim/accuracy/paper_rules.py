@@ -14,16 +14,19 @@ from golden import pad_geometry
 from sim.world.camera import Camera
 
 _RING_TO_SQUARE = 2 * pad_geometry.RING_OUTER_RADIUS_MM / pad_geometry.SQUARE_SIDE_MM
+_RING_M = 2 * pad_geometry.RING_OUTER_RADIUS_MM / 1000.0
 _LOW_PX = 150
 _VERY_LOW_PX = 500
 
 
 class Found(NamedTuple):
-    """Whole pixels and degrees, as the authors' software gives them."""
+    """Whole pixels and degrees, as the authors' software gives them; metres by the size that the ring should have."""
 
     x_px: int
     y_px: int
     angle_deg: int
+    right_m: float
+    forward_m: float
 
 
 def ring_width_px(altitude_m: float) -> float:
@@ -39,6 +42,7 @@ def find_pad(objects: np.ndarray, altitude_m: float) -> Found | None:
         objects: `OBJECT_DTYPE`.
         altitude_m: What the LiDAR measures.
     """
+    camera = Camera()
     ring = ring_width_px(altitude_m)
     side = ring / _RING_TO_SQUARE
     area = objects["area"].astype(np.float64)
@@ -75,5 +79,6 @@ def find_pad(objects: np.ndarray, altitude_m: float) -> Found | None:
                 if nearest < math.hypot(*along) < 0.65 * ring:
                     x, y = (centre[s] + centre[r]) // 2
                     angle = int(math.degrees(math.atan2(along[1], along[0]) + math.pi / 2))
-                    found = Found(int(x), int(y), angle)
+                    right, back = (np.array([x, y]) - (camera.centre_x, camera.centre_y)) * _RING_M / ring
+                    found = Found(int(x), int(y), angle, float(right), -float(back))
     return found

@@ -13,15 +13,12 @@ import numpy as np
 from firmware.library import AUTOPILOT, GROUND, Firmware
 from golden import result_writer
 from golden.chain import Settings, run_chain
-from golden.gaussian5x5 import gaussian5x5
 from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_DTYPE
-from golden.rgb2gray import rgb2gray
-from golden.threshold_stats import threshold_stats
 from scripts.demo_decode import Line, decode
 from scripts.demo_results import Row as Seen
 from scripts.demo_results import collect
-from scripts.frames import HEIGHT, WIDTH, FrameSet
-from sim.accuracy.shots import Shot, Unit
+from scripts.frames import HEIGHT, WIDTH
+from sim.accuracy.shots import Film
 from sim.cosim.result import Frame
 from sim.cosim.run import run_cosim
 
@@ -33,7 +30,7 @@ many) by 10 px a showing: the ninth is the first that has 30 px, and nothing mov
 """
 FRAME_NS = 50_000_000 / 3
 FIRST_FRAME_NS = 3_800_000
-SCAN_NS = 15_995_000
+SCAN_NS = 16_072_000
 RECORD_NS = 78_000
 
 
@@ -54,55 +51,46 @@ class Answer:
     seen: list[Seen]
 
 
-def _schedule(unit: Unit) -> tuple[list[Shot], list[int]]:
-    """The shots in the order in which the camera shows them, and the showing of each shot that counts."""
-    if unit.clip:
-        # Primes the thresholds, as the demo does.
-        return [unit.shots[0], *unit.shots], list(range(1, len(unit.shots) + 1))
-    return [unit.shots[0]] * SHOWINGS, [SHOWINGS - 1]
+def _shown(film: Film) -> list[int]:
+    """Which of its shots the camera shows, one after the other."""
+    count = len(film.images)
+    # A clip's first frame primes the thresholds, as in the demo.
+    return [0, *range(count)] if film.unit.clip else [0] * SHOWINGS
 
 
-def _answer(unit: Unit, counted: list[int], frames: list[Frame], autopilot: Line, ground: Line) -> Answer:
-    source = FrameSet(
-        title=unit.set,
-        names=tuple(shot.name for shot in unit.shots),
-        sequential=unit.clip,
-        truths=tuple(shot.truth for shot in unit.shots),
-        altitude_csv=None,
-        open=lambda: (shot.picture() for shot in unit.shots),
-    )
-    return Answer(frames, autopilot, ground, collect(source, counted, frames, autopilot, ground))
+def _answer(film: Film, frames: list[Frame], autopilot: Line, ground: Line) -> Answer:
+    """What counts are the last showings, one a shot."""
+    counted = list(range(len(frames) - len(film.images), len(frames)))
+    return Answer(frames, autopilot, ground, collect(film.frames, counted, frames, autopilot, ground))
 
 
-def shown_objects(unit: Unit, settings: Settings) -> Iterator[np.ndarray]:
+def shown_objects(film: Film, settings: Settings) -> Iterator[np.ndarray]:
     """The objects of each showing, of every size, in the order of the hardware.
 
     A picture that is shown again differs in nothing but the registers, so it is computed once.
     """
     every = replace(settings, min_area=0)
-    shown, counted = _schedule(unit)
-    # Without thresholds everything is bright, and the firmware's settings make that no object at all.
+    # Without thresholds everything is bright, and no settings in use make that an object.
     yield np.zeros(0, OBJECT_DTYPE)
-    first = shown[0].picture()
-    stats = threshold_stats(gaussian5x5(rgb2gray(first)), settings.factor)
-    if not unit.clip:
-        objects = run_chain(first, stats, every).objects
-        yield from [objects] * (len(shown) - 1)
+    before = run_chain(film.images[0], None, every).stats
+    if not film.unit.clip:
+        objects = run_chain(film.images[0], before, every).objects
+        yield from [objects] * (SHOWINGS - 1)
         return
-    for showing in counted:
-        stages = run_chain(shown[showing].picture(), stats, every)
+    for image in film.images:
+        stages = run_chain(image, before, every)
         yield stages.objects
-        stats = stages.stats
+        before = stages.stats
 
 
-def golden(unit: Unit, settings: Settings | None = None, options: int | None = None) -> Answer:
+def golden(film: Film, settings: Settings | None = None, options: int | None = None) -> Answer:
     """The golden models and the firmware's C in this process.
 
     What the firmware writes to MIN_AREA after one record counts from the next frame on: the record is there 0.1 ms
     after a frame's last pixel, and the next frame, which takes its registers with its first pixel, comes after 0.67 ms.
 
     Args:
-        unit: What is shown.
+        film: What is shown.
         settings: Registers other than the firmware's; MIN_AREA is the firmware's all the same.
         options: What the firmware's detection may do, a mask; default is what the firmware starts with.
     """
@@ -110,10 +98,10 @@ def golden(unit: Unit, settings: Settings | None = None, options: int | None = N
     firmware = Firmware()
     if options is not None:
         firmware.set_options(options)
-    shown, counted = _schedule(unit)
     sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
     frames = []
-    for index, (shot, objects) in enumerate(zip(shown, shown_objects(unit, settings), strict=True)):
+    for index, (shown, objects) in enumerate(zip(_shown(film), shown_objects(film, settings), strict=True)):
+        shot = film.unit.shots[shown]
         first_ns = FIRST_FRAME_NS + round(index * FRAME_NS)
         last_ns = first_ns + SCAN_NS
         values = {
@@ -137,7 +125,7 @@ def golden(unit: Unit, settings: Settings | None = None, options: int | None = N
             data.clear()
         frames.append(Frame(index, first_ns, last_ns, _whole(record), last_ns + RECORD_NS))
     lines = {link: decode(bytes(data), [0] * len(data)) for link, data in sent.items()}
-    return _answer(unit, counted, frames, lines[AUTOPILOT], lines[GROUND])
+    return _answer(film, frames, lines[AUTOPILOT], lines[GROUND])
 
 
 def _whole(record: bytes) -> np.void:
@@ -145,21 +133,20 @@ def _whole(record: bytes) -> np.void:
     return np.frombuffer(record.ljust(RECORD_DTYPE.itemsize, b"\0"), RECORD_DTYPE)[0]
 
 
-def rtl(unit: Unit, out_dir: Path) -> Answer:
+def rtl(film: Film, out_dir: Path) -> Answer:
     """The verilated landing_core with the firmware built for this machine.
 
     Args:
-        unit: What is shown.
+        film: What is shown.
         out_dir: Where the run leaves its files; a folder of its own.
     """
-    shown, counted = _schedule(unit)
     result = run_cosim(
-        (shot.picture() for shot in shown),
-        [round(1000 * shot.lidar_m) for shot in shown],
+        (film.images[shown] for shown in _shown(film)),
+        [round(1000 * film.unit.shots[shown].lidar_m) for shown in _shown(film)],
         firmware="host",
         out_dir=out_dir,
         progress=lambda _text: None,
     )
     autopilot = decode(result.uart0.data, result.uart0.done_ns)
     ground = decode(result.uart1.data, result.uart1.done_ns)
-    return _answer(unit, counted, result.frames, autopilot, ground)
+    return _answer(film, result.frames, autopilot, ground)

@@ -5,6 +5,8 @@ import csv
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 from scripts.errors import UserError
 from scripts.frames import open_frames, read_picture
 from scripts.frames_altitude import altitudes_m
@@ -37,11 +39,15 @@ def photo_units(folder: str, altitude: str | None = None) -> list[Unit]:
         prefix = f"{path.name}/" if inner else ""
         for name, metres in zip(frames.names, altitudes_m(frames, altitude), strict=True):
             reference, difficulty = references.pop(prefix + name, (Reference(), "-"))
-            shot = Shot(name, partial(read_picture, path / name), metres, reference, difficulty)
+            shot = Shot(name, partial(_read, path / name, reference), metres, difficulty)
             units.append(Unit(PREFIX + path.name, (shot,)))
     if references:
         raise UserError(f"{root / REFERENCE} names {next(iter(references))}, which is not there; mend the name.")
     return units
+
+
+def _read(path: Path, reference: Reference) -> tuple[np.ndarray, Reference]:
+    return read_picture(path), reference
 
 
 def _references(path: Path) -> dict[str, tuple[Reference, str]]:

@@ -36,20 +36,21 @@ def rendered_units(name: str, count: int | None = None) -> list[Unit]:
             look = Look(noise_sigma=0.5)
         if name == "negatives":
             pose = Pose(pose.altitude_m, forward_m=40.0)
-        units.append(Unit(name, (_shot(f"{index:04d}", pose, look, index),)))
+        shot = Shot(f"{index:04d}", partial(_draw, pose, look, index), truth_of(Camera(), pose).lidar_m)
+        units.append(Unit(name, (shot,)))
     return units
 
 
-def _shot(name: str, pose: Pose, look: Look, seed: int) -> Shot:
-    truth = truth_of(Camera(), pose)
-    level = np.array([pose.right_m, -pose.forward_m, pose.altitude_m])
-    body = camera_from_level(pose) @ level
-    present = truth.visible
-    reference = Reference(
-        present, present, truth.x_px, truth.y_px, truth.angle_deg, float(body[0]), -float(body[1]), float(body[2])
+def _draw(pose: Pose, look: Look, seed: int) -> tuple[np.ndarray, Reference]:
+    image, truth = render(pose, look, seed=seed)
+    right, back, depth = camera_from_level(pose) @ (pose.right_m, -pose.forward_m, pose.altitude_m)
+    return image, Reference(
+        present=truth.visible,
+        required=truth.visible,
+        x_px=truth.x_px,
+        y_px=truth.y_px,
+        angle_deg=truth.angle_deg,
+        right_m=float(right),
+        forward_m=-float(back),
+        altitude_m=float(depth),
     )
-    return Shot(name, partial(_picture, pose, look, seed), truth.lidar_m, reference)
-
-
-def _picture(pose: Pose, look: Look, seed: int) -> np.ndarray:
-    return render(pose, look, seed=seed)[0]

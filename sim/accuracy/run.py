@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """How well the pad is found: photographs and rendered sets through the whole chain, compared with what is true.
 
-    python -m sim.accuracy.run [--frames FOLDER] [--run golden|rtl] [--count N] [--sets NAME ...]
+    python -m sim.accuracy.run [--frames FOLDER] [--run golden|rtl] [--count N] [--sets NAME ...] [--options]
 
-Prints a table and the goals, and leaves in build/accuracy the rows, pictures and report.html. Fails if a goal is not
-met.
+Prints tables and goals, and leaves rows, contact sheets and report.html in build/accuracy. Fails if a goal is not met.
 """
 
 import time
+from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from firmware.library import make
 from scripts.errors import ArgumentParser, UserError, run_main
 from sim.accuracy.goals import NOT_MET, judge, load_goals
-from sim.accuracy.measure import RUNS, Measure, measure, measure_golden, measure_rtl
+from sim.accuracy.measure import Workers, measure_golden, measure_rtl
+from sim.accuracy.options import compare, lines, load_variants
 from sim.accuracy.photos import PREFIX, photo_units
 from sim.accuracy.rendered import SETS, rendered_units
+from sim.accuracy.report import write_report
 from sim.accuracy.rows import Row, write_rows
+from sim.accuracy.sheets import write_sheets
 from sim.accuracy.shots import Unit
 from sim.accuracy.tables import CURVE_HEAD, END_HEAD, HEAD, as_text, curve_lines, end_lines, set_lines
 from sim.cosim.build import build_host
@@ -25,6 +29,8 @@ from sim.cosim.build import build_host
 OUT = Path("build/accuracy")
 PHOTOS = "photos"
 ROWS = "rows.jsonl"
+OPTION_ROWS = "options"
+RUNS = {"golden": measure_golden, "rtl": measure_rtl}
 
 
 def choose(sets: Sequence[str] | None, frames: str | None, altitude: str | None, count: int | None) -> list[Unit]:
@@ -35,7 +41,7 @@ def choose(sets: Sequence[str] | None, frames: str | None, altitude: str | None,
     """
     if count is not None and count < 1:
         raise UserError(f"COUNT is {count}; give 1 or more.")
-    names = list(sets) if sets else [*([PHOTOS] if frames else []), *SETS]
+    names = list(dict.fromkeys(sets)) if sets else [*([PHOTOS] if frames else []), *SETS]
     units: list[Unit] = []
     for name in names:
         if name != PHOTOS:
@@ -47,20 +53,18 @@ def choose(sets: Sequence[str] | None, frames: str | None, altitude: str | None,
     return units
 
 
-def prepare(run: str) -> Measure:
-    """Build what is missing, and say how a unit is measured.
+def build(run: str) -> None:
+    """Build what a run needs.
 
     Raises:
         UserError: it cannot be built.
     """
-    if run == "rtl":
-        build_host()
-        return measure_rtl
     try:
         make("host")
     except AssertionError as error:
         raise UserError("the firmware's library does not build; `make -C firmware host` says why.") from error
-    return measure_golden
+    if run == "rtl":
+        build_host()
 
 
 def tables(rows: Sequence[Row]) -> str:
@@ -71,6 +75,34 @@ def tables(rows: Sequence[Row]) -> str:
     return "\n\n".join(parts)
 
 
+def measure(units: Sequence[Unit], workers: Workers, options: Namespace) -> int:
+    """Measure, print and write everything; 1 if a goal is not met."""
+    rows = [row for part in workers.map("frames and clips", RUNS[options.run], units) for row in part]
+    write_rows(options.out / ROWS, rows)
+    verdicts = [] if options.no_goals else judge(load_goals(), rows)
+    sheets = write_sheets(rows, units, options.out, workers)
+    report = options.out / "report.html"
+    write_report(report, rows, verdicts, sheets, options.run)
+    print(f"\n{tables(rows)}\n")
+    for verdict in verdicts:
+        print(f"{verdict.state:7}  {verdict.goal.name}: {verdict.figure}")
+    print(f"\n{len(rows)} frames, path: {options.run}. Report: {report}. Rows: {options.out / ROWS}.")
+    return int(any(verdict.state == NOT_MET for verdict in verdicts))
+
+
+def measure_options(units: Sequence[Unit], workers: Workers, out_dir: Path) -> None:
+    """Measure every variant of `options.toml`, print and keep the table."""
+    variants = load_variants()
+    task = partial(compare, variants=variants)
+    by_unit = list(workers.map("frames and clips, every variant", task, units))
+    results = []
+    for index, variant in enumerate(variants):
+        rows = [row for parts in by_unit for row in parts[index]]
+        write_rows(out_dir / OPTION_ROWS / f"{index:02d}.jsonl", rows)
+        results.append((variant.name, rows))
+    print(f"\n{as_text(*lines(results))}\n\nRows: {out_dir / OPTION_ROWS}.")
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Entry point; 1 if a goal is not met."""
     parser = ArgumentParser(description="How well the pad is found, on photographs and on rendered frames.")
@@ -78,21 +110,23 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--altitude", help="metres, or a CSV file (default: altitude.csv of each set)")
     parser.add_argument("--sets", nargs="+", help=f"what to measure (default: all): {PHOTOS} {' '.join(SETS)}")
     parser.add_argument("--count", type=int, help="frames a rendered set (default: the set's own number)")
-    parser.add_argument("--run", choices=RUNS, default=RUNS[0], help="the golden models, or the verilated RTL")
+    parser.add_argument("--run", choices=RUNS, default="golden", help="the golden models, or the verilated RTL")
+    parser.add_argument("--options", action="store_true", help="compare the variants of options.toml instead")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     parser.add_argument("--no-goals", action="store_true", help="do not compare with the goals")
     parser.add_argument("--out", type=Path, default=OUT, help="folder for rows, pictures and report")
     options = parser.parse_args(arguments)
     start = time.monotonic()
     units = choose(options.sets, options.frames, options.altitude, options.count)
-    rows = measure(units, prepare(options.run), options.jobs, lambda text: print(text, flush=True))
-    write_rows(options.out / ROWS, rows)
-    print(f"\n{tables(rows)}\n")
-    verdicts = [] if options.no_goals else judge(load_goals(), rows)
-    for verdict in verdicts:
-        print(verdict.sentence)
-    print(f"\n{len(rows)} frames ({options.run}) in {time.monotonic() - start:.0f} s; rows: {options.out / ROWS}")
-    return int(any(verdict.state == NOT_MET for verdict in verdicts))
+    build(options.run)
+    with Workers(options.jobs, lambda text: print(text, flush=True)) as workers:
+        if options.options:
+            measure_options(units, workers, options.out)
+            code = 0
+        else:
+            code = measure(units, workers, options)
+    print(f"Took {time.monotonic() - start:.0f} s.")
+    return code
 
 
 if __name__ == "__main__":

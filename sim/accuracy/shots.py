@@ -2,10 +2,11 @@
 """What is measured: frames with what is known of them, in units that share nothing with each other."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from scripts.frames import FrameSet
 from sim.accuracy.rows import Reference
 from sim.world.pose import Truth
 
@@ -16,36 +17,17 @@ class Shot:
 
     Attributes:
         name: Its name in the set.
-        picture: Gives (720, 1280, 3) uint8 RGB, the same each time; can be sent to another process.
+        draw: Gives (720, 1280, 3) uint8 RGB and what is true of it, the same each time; can go to another process.
         lidar_m: What the LiDAR measures.
-        reference: What is true of it.
         difficulty: What the reference calls it; "-" where it does not.
         strength: How strong the set's disturbance is.
     """
 
     name: str
-    picture: Callable[[], np.ndarray]
+    draw: Callable[[], tuple[np.ndarray, Reference]]
     lidar_m: float
-    reference: Reference
     difficulty: str = "-"
     strength: float | None = None
-
-    @property
-    def truth(self) -> Truth | None:
-        """The reference as the demo's pictures take it."""
-        known = self.reference
-        if known.x_px is None or known.y_px is None:
-            return None
-        return Truth(
-            x_px=known.x_px,
-            y_px=known.y_px,
-            angle_deg=known.angle_deg or 0.0,
-            altitude_m=known.altitude_m or self.lidar_m,
-            lidar_m=self.lidar_m,
-            right_m=known.right_m or 0.0,
-            forward_m=known.forward_m or 0.0,
-            visible=known.required,
-        )
 
 
 @dataclass(frozen=True)
@@ -65,3 +47,53 @@ class Unit:
     def __post_init__(self) -> None:
         if not self.shots or (len(self.shots) > 1 and not self.clip):
             raise ValueError(f"a unit of {self.set} is one picture or a clip, not {len(self.shots)} pictures")
+
+
+@dataclass(frozen=True)
+class Film:
+    """A unit with its pictures.
+
+    Attributes:
+        unit: The unit.
+        images: A picture a shot.
+        references: What is true of each.
+    """
+
+    unit: Unit
+    images: tuple[np.ndarray, ...] = field(repr=False)
+    references: tuple[Reference, ...]
+
+    @property
+    def frames(self) -> FrameSet:
+        """The unit as demo and vectors know frames."""
+        shots = self.unit.shots
+        return FrameSet(
+            title=self.unit.set,
+            names=tuple(shot.name for shot in shots),
+            sequential=self.unit.clip,
+            truths=tuple(_truth(shot, known) for shot, known in zip(shots, self.references, strict=True)),
+            altitude_csv=None,
+            open=lambda: iter(self.images),
+        )
+
+
+def develop(unit: Unit) -> Film:
+    """Draw all pictures of a unit."""
+    images, references = zip(*(shot.draw() for shot in unit.shots), strict=True)
+    return Film(unit, images, references)
+
+
+def _truth(shot: Shot, known: Reference) -> Truth | None:
+    """The reference as the demo's pictures take it."""
+    if known.x_px is None or known.y_px is None:
+        return None
+    return Truth(
+        x_px=known.x_px,
+        y_px=known.y_px,
+        angle_deg=known.angle_deg or 0.0,
+        altitude_m=known.altitude_m or shot.lidar_m,
+        lidar_m=shot.lidar_m,
+        right_m=known.right_m or 0.0,
+        forward_m=known.forward_m or 0.0,
+        visible=known.required,
+    )

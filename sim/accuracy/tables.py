@@ -95,7 +95,7 @@ def end_lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     """A line a disturbance: where it ends."""
     lines = []
     for name, points in curves(rows).items():
-        ends = [ends_at(points, rate, name in HARDER_BELOW) for rate in (0.95, 0.5)]
+        ends = [ends_at(points, rate) for rate in (0.95, 0.5)]
         lines.append((name, *("not in this range" if end is None else f"{end:.3g}" for end in ends)))
     return lines
 
@@ -104,10 +104,6 @@ def curves(rows: Sequence[Row]) -> dict[str, list]:
     """A curve for each set that has strengths, by the name of its disturbance."""
     names = dict.fromkeys(row.set for row in rows if row.strength is not None)
     return {name.removeprefix("sweep:"): curve([row for row in rows if row.set == name]) for name in names}
-
-
-HARDER_BELOW = {"contrast"}
-"""Disturbances that grow as their number falls."""
 
 
 def as_text(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
