@@ -354,11 +354,12 @@ async def beats_without_a_frame(dut: HierarchyObject) -> None:
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
-async def reset_in_mid_frame(dut: HierarchyObject) -> None:
+@cocotb.parametrize(weather=list(WEATHER))
+async def reset_in_mid_frame(dut: HierarchyObject, weather: str) -> None:
     """After a system reset the ring starts at buffer 0 and the next frame is whole."""
     bench = Bench(dut, Random(getrandbits(32)))
     await bench.reset()
-    bench.weather("slow_memory")
+    bench.weather(weather)
     for _ in range(4):
         bench.send(Frame(random_frame(bench.rng, 77).values, random_objects(bench.rng, 4)))
         for _ in range(bench.rng.randint(1, 600)):

@@ -8,6 +8,7 @@ from cocotb.handle import HierarchyObject
 from cocotb.triggers import RisingEdge, Timer
 
 from tb.common.compare import check_markers
+from tb.common.figures import page_figures
 from tb.common.run import where
 from tb.common.stream import split_frames, stalls
 from tb.video_in.tb_video_in import (
@@ -35,6 +36,11 @@ FASTER = ("1080p", "triple")
 def random_size(rng: Random) -> tuple[int, int]:
     """Return a small frame size, one pixel included."""
     return rng.randint(1, 17), rng.randint(1, 7)
+
+
+def small_size(rng: Random) -> tuple[int, int]:
+    """Return a frame size that the FIFO takes up although m_axis stalls; a fault adds lines and pixels."""
+    return rng.randint(1, 3), rng.randint(1, 3)
 
 
 async def play_and_check(bench: Bench, raw: Raw, width: int, height: int) -> None:
@@ -69,17 +75,19 @@ async def good_frames(dut: HierarchyObject, pix: str, shape: str) -> None:
 
 
 @cocotb.test()
-@cocotb.parametrize(attempt=list(range(6)), stop_clock=[False, True])
-async def malformed_frames(dut: HierarchyObject, attempt: int, stop_clock: bool) -> None:
-    """Every kind of fault, between good frames and after one another; pix_clk may stop and go on anywhere."""
-    bench = Bench(dut)
+@cocotb.parametrize(attempt=list(range(6)), stop_clock=[False, True], stalled=[0.0, 0.3])
+async def malformed_frames(dut: HierarchyObject, attempt: int, stop_clock: bool, stalled: float) -> None:
+    """Every kind of fault, between good frames and after one another; pix_clk may stop, and m_axis stall, anywhere."""
+    bench = Bench(dut, backpressure=stalled)
     rng = bench.rng
     await bench.reset()
-    width, height = random_size(rng)
+    width, height = small_size(rng) if stalled else random_size(rng)
     await bench.configure(width, height)
     if stop_clock:
         bench.pause_clock = stalls(rng, 0.1)
     raw, shape = Raw(), TIGHT if attempt < 2 else blanking(rng)
+    if stalled:
+        shape = Blanking(4 * width, 20, 20, 100)
     for _ in range(12):
         lines = lines_of(rng, width, height)
         raw.frame(spoil(rng, lines) if rng.random() < 0.6 else lines, shape)
@@ -346,7 +354,8 @@ async def latency(dut: HierarchyObject, pix: str) -> None:
     await bench.configure(3, 2)
     raw = Raw()
     raw.frame(lines_of(bench.rng, 3, 2), Blanking(12, 5, 5, 5))
-    least, most = 3 * bench.pix_ns + 3 * CLK_NS, 3 * bench.pix_ns + 5 * CLK_NS
+    pix_cycles, fewest, most_cycles = page_figures("video_in")
+    least, most = (pix_cycles * bench.pix_ns + cycles * CLK_NS for cycles in (fewest, most_cycles))
     for _ in range(20):
         # Every frame meets another phase of the two clocks.
         bench.first_pixel_ns = bench.first_beat_ns = 0.0
