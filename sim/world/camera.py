@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The camera of the rendered world: r = 2 f tan(theta / 2), looking down.
+"""The camera of the rendered world: r = 2 f tan(theta / 2), with a radial term for a lens that differs; looking down.
 
 Camera axes: x right, y down in the image, z along the optical axis. A level
 camera looks straight down, with the image's top towards the drone's nose, so
@@ -8,14 +8,19 @@ Integer pixel coordinates are pixel centres.
 """
 
 import functools
+import math
 from dataclasses import dataclass
 
 import numpy as np
+
+_NEWTON_STEPS = 8
 
 
 @dataclass(frozen=True)
 class Camera:
     """Geometry of the camera; the same model as `firmware/core/camera.c`, whose inverse is here.
+
+    With u = 2 tan(theta / 2) a ray meets the image at r = f u (1 + radial u^2) from the principal point.
 
     Attributes:
         width: Pixels a line.
@@ -23,6 +28,7 @@ class Camera:
         focal_px: f in pixels.
         centre_x: Column of the principal point.
         centre_y: Line of the principal point.
+        radial: Distortion; below 0 is a barrel, above 0 a pincushion.
     """
 
     width: int = 1280
@@ -30,6 +36,11 @@ class Camera:
     focal_px: float = 552.0
     centre_x: float = 640.0
     centre_y: float = 360.0
+    radial: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self._corner() >= self._turning_point() * (2.0 / 3.0):
+            raise ValueError(f"radial is {self.radial}; with it the lens does not reach the corners of the frame")
 
     def scaled(self, divisor: int) -> "Camera":
         """The same field of view in a frame `divisor` times smaller, for quick tests."""
@@ -39,6 +50,7 @@ class Camera:
             self.focal_px / divisor,
             self.centre_x / divisor,
             self.centre_y / divisor,
+            self.radial,
         )
 
     def project(self, points: np.ndarray) -> np.ndarray:
@@ -54,18 +66,36 @@ class Camera:
         axial = points[..., 2]
         distance = np.linalg.norm(points, axis=-1)
         # 2 tan(theta / 2) = 2 sin(theta) / (1 + cos(theta)): no arc tangent, and exact on the axis.
-        scale = 2.0 * self.focal_px / (distance + axial)
+        scale = 2.0 / (distance + axial)
+        if self.radial:
+            # Past the turning point the image would come back into the frame; there it stays outside.
+            off_axis = np.minimum(scale * np.hypot(points[..., 0], points[..., 1]), self._turning_point())
+            scale = scale * (1.0 + self.radial * off_axis**2)
+        scale = self.focal_px * scale
         return np.stack([self.centre_x + scale * points[..., 0], self.centre_y + scale * points[..., 1]], axis=-1)
 
     def rays(self) -> np.ndarray:
         """Unit vectors in camera axes through every pixel centre: (height, width, 3) float32, read only."""
         return _rays(self)
 
+    def _corner(self) -> float:
+        """The farthest corner's r / f."""
+        across = max(self.centre_x, self.width - 1 - self.centre_x)
+        down = max(self.centre_y, self.height - 1 - self.centre_y)
+        return math.hypot(across, down) / self.focal_px
+
+    def _turning_point(self) -> float:
+        """The u at which r stops growing."""
+        return math.inf if self.radial >= 0 else 1.0 / math.sqrt(-3.0 * self.radial)
+
 
 @functools.lru_cache(maxsize=4)
 def _rays(camera: Camera) -> np.ndarray:
     across = (np.arange(camera.width) - camera.centre_x)[None, :] / (2.0 * camera.focal_px)
     down = (np.arange(camera.height) - camera.centre_y)[:, None] / (2.0 * camera.focal_px)
+    if camera.radial:
+        straight = _undistorted(2.0 * np.hypot(across, down), camera.radial)
+        across, down = across * straight, down * straight
     # t = tan(theta / 2): sin(theta) = 2 t / (1 + t^2), cos(theta) = (1 - t^2) / (1 + t^2).
     squared = across**2 + down**2
     rays = np.empty((camera.height, camera.width, 3), np.float32)
@@ -74,3 +104,11 @@ def _rays(camera: Camera) -> np.ndarray:
     rays[..., 2] = (1.0 - squared) / (1.0 + squared)
     rays.flags.writeable = False
     return rays
+
+
+def _undistorted(r: np.ndarray, radial: float) -> np.ndarray:
+    """Factors u / r for each r = u (1 + radial u^2), by Newton's method."""
+    u = r.copy()
+    for _ in range(_NEWTON_STEPS):
+        u -= (u * (1.0 + radial * u**2) - r) / (1.0 + 3.0 * radial * u**2)
+    return np.divide(u, r, out=np.ones_like(r), where=r > 0)

@@ -15,26 +15,30 @@ _REACH = 24
 _POSITIONS = np.arange(-_REACH, _REACH + 1)
 
 
-def apply_lens(image: np.ndarray, edge_px: float, overshoot: float) -> np.ndarray:
-    """Blur and sharpen a float32 image so that a straight edge ends up as asked.
+def blur(image: np.ndarray, edge_px: float, overshoot: float) -> np.ndarray:
+    """The lens' part: blurs so that, sharpened after it, a straight edge ends up as asked.
 
     Args:
         image: (height, width, 3) float32 that already averages over each pixel.
-        edge_px: 10-90 % width of an upright edge in the result; below what the pixel itself gives, there is no blur.
-        overshoot: Overshoot beside an edge, as a share of its height.
+        edge_px: 10-90 % width of an upright edge in the end; below what the pixel itself gives, there is no blur.
+        overshoot: Overshoot beside an edge in the end, as a share of its height.
 
     Returns:
-        An image of the same shape and type; levels may leave 0 to 255.
+        An image of the same shape and type.
     """
-    sigma, amount = settings(edge_px, overshoot)
-    if sigma > 0:
-        image = _blur(image, sigma)
+    sigma, _ = settings(edge_px, overshoot)
+    return _blur(image, sigma) if sigma > 0 else image
+
+
+def sharpen(image: np.ndarray, edge_px: float, overshoot: float) -> np.ndarray:
+    """The camera's part, after `blur` with the same arguments; levels may leave 0 to 255."""
+    _, amount = settings(edge_px, overshoot)
     if amount > 0:
         image = image + np.float32(amount) * (image - _blur(image, _SHARPEN_SIGMA))
     return image
 
 
-@functools.lru_cache(maxsize=16)
+@functools.lru_cache(maxsize=256)
 def settings(edge_px: float, overshoot: float) -> tuple[float, float]:
     """Sigma of the lens' blur and amount of unsharp masking for an edge of this width and overshoot."""
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from golden import pad_geometry
 from sim.world.camera import Camera
+from sim.world.curl import FLAT, Curl
 
 _PAD_CENTRE_MM = np.array([[0.0, 0.0]])
 _SQUARE_CENTRE_MM = np.array([[pad_geometry.SQUARE_CENTRE_X_MM, pad_geometry.SQUARE_CENTRE_Y_MM]])
@@ -85,30 +86,32 @@ def pad_to_level(pose: Pose) -> tuple[np.ndarray, np.ndarray]:
     return rotation, np.array([1000.0 * pose.right_m, -1000.0 * pose.forward_m])
 
 
-def project_pad(camera: Camera, pose: Pose, points_mm: np.ndarray) -> np.ndarray:
+def project_pad(camera: Camera, pose: Pose, points_mm: np.ndarray, curl: Curl = FLAT) -> np.ndarray:
     """Image of points of the pad.
 
     Args:
         camera: The camera.
         pose: Where the drone is.
         points_mm: (n, 2) in the pad's coordinates (`golden/pad_geometry.py`).
+        curl: How the paper is bent.
 
     Returns:
         (n, 2) pixel coordinates x, y.
     """
     rotation, shift = pad_to_level(pose)
-    plane = np.asarray(points_mm, dtype=np.float64) @ rotation.T + shift
-    level = np.column_stack([plane, np.full(len(plane), 1000.0 * pose.altitude_m)])
+    over, height = curl.raise_sheet(points_mm)
+    level = np.column_stack([over @ rotation.T + shift, 1000.0 * pose.altitude_m - height])
     return camera.project(level @ camera_from_level(pose).T)
 
 
-def truth_of(camera: Camera, pose: Pose) -> Truth:
-    """The truth of a frame rendered with this camera and pose."""
-    centre = project_pad(camera, pose, _PAD_CENTRE_MM)[0]
-    square = project_pad(camera, pose, _SQUARE_CENTRE_MM)[0]
-    rectangle = project_pad(camera, pose, _RECTANGLE_CENTRE_MM)[0]
+def truth_of(camera: Camera, pose: Pose, curl: Curl = FLAT) -> Truth:
+    """The truth of a frame rendered with this camera and pose, of paper bent like this."""
+    centre = project_pad(camera, pose, _PAD_CENTRE_MM, curl)[0]
+    square = project_pad(camera, pose, _SQUARE_CENTRE_MM, curl)[0]
+    rectangle = project_pad(camera, pose, _RECTANGLE_CENTRE_MM, curl)[0]
     turn = np.linspace(0.0, 2.0 * np.pi, 360, endpoint=False)
-    rim = project_pad(camera, pose, pad_geometry.RING_OUTER_RADIUS_MM * np.column_stack([np.cos(turn), np.sin(turn)]))
+    circle = pad_geometry.RING_OUTER_RADIUS_MM * np.column_stack([np.cos(turn), np.sin(turn)])
+    rim = project_pad(camera, pose, circle, curl)
     inside = (rim >= 0).all() and (rim[:, 0] <= camera.width - 1).all() and (rim[:, 1] <= camera.height - 1).all()
     angle = math.degrees(math.atan2(square[1] - rectangle[1], square[0] - rectangle[0])) + 90.0
     return Truth(
