@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes every beat of one stream to <NAME>.bin, as sim/verilated/stage_taps.h describes: the payload, least byte
-// first, then one byte {tlast, tuser}. Stops the run at the first handshake signal that is unknown after reset, and at
-// the first beat with an unknown bit.
+// first, then one byte {tlast, tuser}. Stops the run at the first handshake signal that is unknown after reset, at the
+// first beat with an unknown bit, and where a beat changes or vanishes before it was taken.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -20,6 +20,8 @@ module stage_tap #(
 
   integer file;
   integer place;
+  reg offered = 1'b0;  // and not taken in the cycle before
+  reg [8*BYTES+1:0] offer;
 
   initial begin
     file = $fopen({NAME, ".bin"}, "wb");
@@ -30,9 +32,15 @@ module stage_tap #(
   end
 
   always @(posedge clk) begin
+    offered <= !rst && tvalid && !tready;
+    offer   <= {tdata, tuser, tlast};
     if (!rst) begin
       if (^{tvalid, tready} === 1'bx) begin
         $display("fault: stage %s: tvalid %b, tready %b at %0d ns", NAME, tvalid, tready, $time);
+        $finish;
+      end else if (offered && (!tvalid || {tdata, tuser, tlast} !== offer)) begin
+        $display("fault: stage %s: a beat changed while stalled, to tvalid %b tdata %h tuser %b tlast %b at %0d ns", NAME,
+                 tvalid, tdata, tuser, tlast, $time);
         $finish;
       end else if (tvalid && tready) begin
         if (^{tdata, tuser, tlast} === 1'bx) begin

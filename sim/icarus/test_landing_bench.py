@@ -43,6 +43,13 @@ QUICK = [
     Fault("threshold_apply", "out_pixel > threshold", "out_pixel >= threshold", "stage binary, frame 1"),
     Fault("ccl_merge", "a[MAX_Y+:Y_BITS] > b", "a[MAX_Y+:Y_BITS] < b", "stage objects, frame 1"),
     Fault("result_writer", "{23'd0, threshold_factor_reg}", "32'd0", "record, frame 0: threshold_factor"),
+    # What is handed over is right: only what waits changes.
+    Fault(
+        "ccl_send",
+        "RESERVED_1_LSB] = 0;\nendm",
+        "RESERVED_1_LSB] = !m_axis_tready;\nendm",
+        "in Icarus, stage objects: a b",
+    ),
     # Unknown in Icarus only: a model of two states starts from some number.
     Fault("threshold_stats", "least = b_fresh_reg ||", "least =", "in Icarus, stage stats: unknown bits"),
 ]

@@ -40,22 +40,33 @@ StageTaps::StageTaps(const std::string& folder) {
         std::setvbuf(file, nullptr, _IOFBF, FILE_BUFFER_BYTES);
         files_.push_back(file);
     }
+    offers_.resize(STAGES);
 }
 
 StageTaps::~StageTaps() {
     for (std::FILE* file : files_) std::fclose(file);
 }
 
-void StageTaps::beat(size_t stage, const void* payload, bool first, bool last) {
-    std::fwrite(payload, STAGE_BYTES[stage].bytes, 1, files_[stage]);
-    std::putc(last << 1 | first, files_[stage]);
+void StageTaps::look(size_t stage, Handshake now, const void* payload, bool first, bool last) {
+    std::string& offer = offers_[stage];
+    if (!now.valid && offer.empty()) return;
+    std::string entry(static_cast<const char*>(payload), STAGE_BYTES[stage].bytes);
+    entry.push_back(static_cast<char>(last << 1 | first));
+    if (!offer.empty() && (!now.valid || entry != offer))
+        throw std::runtime_error(std::string("stage ") + STAGE_BYTES[stage].name + ": a beat changed while stalled.");
+    if (now.ready) std::fwrite(entry.data(), entry.size(), 1, files_[stage]);
+    offer = now.ready ? std::string() : entry;
 }
 
 void StageTaps::sample(const Vlanding_core___024root& root) {
+    if (root.rst) {
+        for (std::string& offer : offers_) offer.clear();
+        return;
+    }
 #define TAP(stage, name)                                                                                            \
-    if (root.landing_core__DOT__##name##_tvalid && root.landing_core__DOT__##name##_tready)                         \
-        beat(stage, &root.landing_core__DOT__##name##_tdata, root.landing_core__DOT__##name##_tuser,                \
-             root.landing_core__DOT__##name##_tlast)
+    look(stage, {root.landing_core__DOT__##name##_tvalid != 0, root.landing_core__DOT__##name##_tready != 0},       \
+         &root.landing_core__DOT__##name##_tdata, root.landing_core__DOT__##name##_tuser,                           \
+         root.landing_core__DOT__##name##_tlast)
     TAP(RGB, rgb);
     TAP(GRAY, chain__DOT__gray);
     TAP(SMOOTH, chain__DOT__smooth);

@@ -4,7 +4,8 @@
 //
 // <folder>/<stage>.bin holds one entry a handshake: the payload, little endian,
 // of the bytes given in STAGE_BYTES, then one byte {tlast, tuser}.
-// sim/compare_stages.py reads it.
+// sim/compare_stages.py reads it. A beat that changes or vanishes before it was
+// taken is an error.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +25,20 @@ public:
     StageTaps(const StageTaps&) = delete;
     StageTaps& operator=(const StageTaps&) = delete;
 
-    // The values just before an edge of clk.
+    // The values just before an edge of clk. Throws std::runtime_error where a stream breaks its protocol.
     void sample(const Vlanding_core___024root& root);
 
 private:
-    void beat(size_t stage, const void* payload, bool first, bool last);
+    struct Handshake {
+        bool valid;
+        bool ready;
+    };
+
+    // Entries as they are written to the files.
+    void look(size_t stage, Handshake now, const void* payload, bool first, bool last);
 
     std::vector<std::FILE*> files_;
+    std::vector<std::string> offers_;  // of each stage the entry that was not taken a cycle before, or nothing
 };
 
 }  // namespace touchdown
