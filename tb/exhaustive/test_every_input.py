@@ -42,11 +42,11 @@ WINDOW_BITS = 25
 MEDIAN_WIDTH = 4096
 
 
-def build(core_name: str, *arguments: str) -> Path:
-    """Verilate a core with the player and return the program."""
+def build(core_name: str, *arguments: str, kind: str = "every_input") -> Path:
+    """Verilate a core with the player and return the program; `kind` names the folder."""
     check_simulator("verilator")
     core = load_core(core_name)
-    folder = ROOT / "build/sim" / core_name / "every_input"
+    folder = ROOT / "build/sim" / core_name / kind
     command = ["verilator", "--cc", "--exe", "--build", "-O3", "--prefix", "Vtop", "--top-module", core.toplevel]
     command += [*arguments, "-CFLAGS", "-O2 -std=c++17 -Wall -Wextra -Werror", "--Mdir", str(folder), "-o", "player"]
     command += [*map(str, core.sources), str(ROOT / "tb/exhaustive/player.cpp")]
@@ -62,10 +62,18 @@ def build_filter(core: str) -> Path:
     return build(core, "-CFLAGS", "-DSIZED", f"-GMAX_WIDTH={MEDIAN_WIDTH}", "-GMAX_HEIGHT=8")
 
 
-def play(player: Path, beats: np.ndarray, *settings: int) -> np.ndarray:
-    """Send beats (uint64) and return what comes out; settings are width, height, factor, flat limit, by default 0."""
-    command = [str(player), *(str(value) for value in (*settings, 0, 0, 0, 0)[:4])]
-    result = subprocess.run(command, input=beats.astype("<u8").tobytes(), capture_output=True, check=True)
+def play(player: Path, beats: np.ndarray, *settings: int, gaps: tuple[int, int] = (0, 0)) -> np.ndarray:
+    """Send beats (uint64) and return what comes out.
+
+    Args:
+        player: of the core.
+        beats: uint64, as the player describes them.
+        settings: width, height, factor, flat limit; by default 0.
+        gaps: per cent of idle and of stalled cycles.
+    """
+    command = [str(player), *(str(value) for value in (*(*settings, 0, 0, 0, 0)[:4], *gaps))]
+    result = subprocess.run(command, input=beats.astype("<u8").tobytes(), capture_output=True, check=False)
+    assert result.returncode == 0, result.stderr.decode()
     return np.frombuffer(result.stdout, dtype="<u8")
 
 
@@ -215,7 +223,7 @@ def judge_spreads(part: str, settings: list[tuple[int, int]]) -> None:
 
 
 def test_every_factor_and_spread() -> None:
-    judge_spreads("factors", [(factor, 0) for factor in range(257)])
+    judge_spreads("factors", [(factor, 0) for factor in range(512)])
 
 
 def test_every_flat_limit_and_spread() -> None:
