@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the test equipment: it must see what is wrong and say where."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from scripts.errors import UserError
 from tb.common.compare import check_frame
 from tb.common.contract import SizeLimits, sent_frames
-from tb.common.cores import ROOT, Core
-from tb.common.runner import run_config, run_core
+from tb.common.cores import ROOT, Core, load_core
+from tb.common.runner import SIMULATORS, run_config, run_core
 from tb.common.stream import Beat, Taken, frame_beats, split_frames
 
 LIMITS = SizeLimits(2, 1, 8, 8)
@@ -75,6 +77,15 @@ def test_protocol_checker_fails_every_broken_stream() -> None:
     result = run_config(Core("faulty_stream", (source,), "faulty_stream", ({},)), "icarus", 0, seed=1)
     assert result.passed, result.summary
     assert result.summary == "7 tests passed"
+
+
+@pytest.mark.parametrize("sim", SIMULATORS)
+def test_waves_are_left(sim: str, tmp_path: Path) -> None:
+    result = run_config(load_core("rgb2gray"), sim, 0, seed=1, waves=True, testcase="latency", output=tmp_path)
+    assert result.passed, result.summary
+    waves = list(result.log.parent.glob("*.fst"))
+    assert waves
+    assert all(wave.stat().st_size > 0 for wave in waves)
 
 
 def test_unknown_names_are_told_in_one_sentence() -> None:

@@ -118,6 +118,7 @@ class Bench:
 
         self.video.source.on_beat = on_beat
         cocotb.start_soon(self._watch_levels())
+        cocotb.start_soon(self._watch_stat_ready())
         cocotb.start_soon(self._watch_sums())
         return self
 
@@ -193,6 +194,19 @@ class Bench:
             last = now
             valid, ready = int(dut.m_axis_tvalid.value), int(dut.m_axis_tready.value)
             started = bool(valid and ready and int(dut.m_axis_tuser.value))
+
+    async def _watch_stat_ready(self) -> None:
+        """The stat stream waits only after a start of frame was taken, until the pipeline has moved by one pixel."""
+        dut, edge, may_wait = self.dut, RisingEdge(self.dut.clk), False
+        while True:
+            await edge
+            if int(dut.rst.value):
+                may_wait = True
+                continue
+            ready = int(dut.s_stat_axis_tready.value)
+            assert ready or may_wait, f"s_stat_axis_tready is 0 without a start of frame; {where()}"
+            start = int(dut.s_axis_tvalid.value) and int(dut.s_axis_tready.value) and int(dut.s_axis_tuser.value)
+            may_wait = bool(start) or (may_wait and not int(dut.advance.value))
 
     async def _watch_sums(self) -> None:
         """Record the interpolated sum of each pixel as it goes into the comparison; None where it is undefined."""
