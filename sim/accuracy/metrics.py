@@ -167,7 +167,7 @@ def ends_at(points: Sequence[Point], rate: float) -> float | None:
     """Strength at which the rate of detection first falls below `rate`, on straight lines between the points.
 
     Args:
-        points: A curve, by rising strength.
+        points: A curve, or a part of it, from the weakest disturbance on.
         rate: 0 to 1.
 
     Returns:

@@ -22,7 +22,7 @@ _SHEETS = {
 }
 _NOTE = (
     "Found: within 5 px and 5 degrees of the truth; farther is false, as is any detection without a pad. Errors are of "
-    "the found pads. In brackets: detections of sets that have no pad, or none that must be seen. Of allowed: greatest "
+    "the found pads. With + : pads found though square or rectangle is cut, covered or tiny. Of allowed: greatest "
     "distance as a part of 1 % of the altitude and 5 mm."
 )
 

@@ -26,7 +26,7 @@ def cells(name: str, figures: Summary) -> tuple[str, ...]:
         name,
         str(figures.frames),
         str(figures.required),
-        str(figures.found) if figures.required else f"({figures.pads})",
+        str(figures.found) + (f" +{figures.pads - figures.found}" if figures.pads > figures.found else ""),
         str(figures.false),
         "-" if figures.mean_x_px is None else f"{figures.mean_x_px:.3f} / {figures.mean_y_px:.3f}",
         _number(figures.p95_px),
@@ -92,11 +92,15 @@ def curve_lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
 
 
 def end_lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
-    """A line a disturbance: where it ends."""
+    """A line a disturbance, or two where it has two directions: where it ends, on the way from 0."""
     lines = []
     for name, points in curves(rows).items():
-        ends = [ends_at(points, rate) for rate in (0.95, 0.5)]
-        lines.append((name, *("not in this range" if end is None else f"{end:.3g}" for end in ends)))
+        sides = [("", [point for point in points if point.strength >= 0])]
+        if points[0].strength < 0:
+            sides = [(" up", sides[0][1]), (" down", [point for point in reversed(points) if point.strength <= 0])]
+        for side, way in sides:
+            ends = [ends_at(way, rate) for rate in (0.95, 0.5)]
+            lines.append((name + side, *("not in this range" if end is None else f"{end:.3g}" for end in ends)))
     return lines
 
 

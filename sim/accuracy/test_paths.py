@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The golden path says what the RTL path says, message by message; MIN_AREA settles; the rules of the paper."""
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from firmware.library import make
+from golden.chain import PAPER, Settings, run_chain
+from scripts.demo_decode import Line
+from scripts.errors import UserError
+from sim.accuracy.options import load_variants
+from sim.accuracy.paper_rules import find_pad, ring_width_px
+from sim.accuracy.paths import SHOWINGS, Answer, golden, rtl
+from sim.accuracy.rows import Reference
+from sim.accuracy.shots import Film, Shot, Unit, develop
+from sim.cosim.build import build_host
+from sim.views import views
+from sim.world.camera import Camera
+from sim.world.clip import demo_clip
+from sim.world.pose import Pose, truth_of
+from sim.world.renderer import Look, render
+
+TIMES = {"start_time_us", "scan_time_us", "altitude_age_us"}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def built() -> None:
+    make("host")
+
+
+def drawn(pose: Pose, look: Look, seed: int) -> tuple[np.ndarray, Reference]:
+    image, truth = render(pose, look, seed=seed)
+    return image, Reference(True, True, truth.x_px, truth.y_px, truth.angle_deg)
+
+
+def shot(name: str, pose: Pose, look: Look, seed: int) -> Shot:
+    return Shot(name, partial(drawn, pose, look, seed), truth_of(Camera(), pose).lidar_m)
+
+
+def descent() -> Film:
+    """Three frames of a descent, far apart."""
+    frames = demo_clip(3)
+    shots = tuple(shot(str(index), frame.pose, frame.look, frame.seed) for index, frame in enumerate(frames))
+    return develop(Unit("descent", shots, clip=True))
+
+
+def said(line: Line) -> list[tuple[str, dict]]:
+    """What answers frames, but for the time."""
+    fields = [(message.kind, {**message.fields, "time_usec": 0}) for message in line.messages]
+    return [
+        (kind, values)
+        for kind, values in fields
+        if kind == "LANDING_TARGET" or (kind == "DEBUG_FLOAT_ARRAY" and values["name"].startswith("PAD"))
+    ]
+
+
+def assert_same(one: Answer, other: Answer) -> None:
+    """Both paths gave the same records and messages, but for times."""
+    assert said(one.ground) == said(other.ground)
+    assert said(one.autopilot) == said(other.autopilot)
+    for a, b in zip(one.frames, other.frames, strict=True):
+        different = [
+            name for name in a.record["header"].dtype.names if a.record["header"][name] != b.record["header"][name]
+        ]
+        assert set(different) <= TIMES
+        count = int(a.record["header"]["object_count"])
+        assert (a.record["objects"][:count] == b.record["objects"][:count]).all()
+
+
+def test_golden_and_rtl_say_the_same_of_a_clip(tmp_path: Path) -> None:
+    build_host()
+    film = descent()
+    one, other = golden(film), rtl(film, tmp_path)
+    assert len(said(one.ground)) == 4
+    assert len(said(one.autopilot)) == 3
+    assert len({int(frame.record["header"]["min_area"]) for frame in one.frames}) > 1, "MIN_AREA never moved"
+    assert_same(one, other)
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("index", range(4))
+def test_golden_and_rtl_say_the_same_of_a_picture(index: int, tmp_path: Path) -> None:
+    build_host()
+    view = views(4, seed=5)[index]
+    film = develop(Unit("view", (shot("view", view.pose, view.look, view.seed),)))
+    one, other = golden(film), rtl(film, tmp_path)
+    assert len(one.frames) == SHOWINGS
+    assert_same(one, other)
+
+
+@pytest.mark.parametrize("image", [np.full((720, 1280, 3), 90, np.uint8), None])
+def test_min_area_has_settled_when_a_picture_counts(image: np.ndarray | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    if image is None:
+        # Specks of 160 px, more than a record holds: MIN_AREA goes the other way.
+        image = np.full((720, 1280, 3), 220, np.uint8)
+        for x in range(20, 1260, 40):
+            for y in range(20, 700, 40):
+                image[y : y + 13, x : x + 13] = 30
+    film = develop(Unit("s", (Shot("a", lambda: (image, Reference()), 1.0),)))
+    monkeypatch.setattr("sim.accuracy.paths.SHOWINGS", SHOWINGS + 3)
+    seen = [int(frame.record["header"]["min_area"]) for frame in golden(film).frames]
+    assert len(set(seen)) > 1
+    assert len(set(seen[SHOWINGS - 1 :])) == 1, seen
+
+
+def test_a_picture_counts_after_it_has_settled_and_a_clip_frame_by_frame() -> None:
+    film = descent()
+    answer = golden(film)
+    assert [one.name for one in answer.seen] == ["0", "1", "2"]
+    assert [int(one.record["header"]["frame_number"]) for one in answer.seen] == [2, 3, 4]
+    for one, known in zip(answer.seen, film.references, strict=True):
+        assert one.pad is not None
+        assert abs(one.pad.x_px - known.x_px) < 0.5
+    picture = develop(Unit("s", film.unit.shots[2:]))
+    assert [int(one.record["header"]["frame_number"]) for one in golden(picture).seen] == [SHOWINGS]
+
+
+def test_the_papers_rules() -> None:
+    pose = Pose(altitude_m=1.0, right_m=0.2, forward_m=-0.1, pad_yaw_deg=30.0)
+    image, truth = render(pose, Look(noise_sigma=0.5))
+    objects = run_chain(image, run_chain(image, None, PAPER).stats, PAPER).objects
+    found = find_pad(objects, pose.altitude_m)
+    assert found is not None
+    assert np.hypot(found.x_px - truth.x_px, found.y_px - truth.y_px) < 3
+    assert abs(found.angle_deg - truth.angle_deg) < 3
+    assert (found.right_m, found.forward_m) == pytest.approx((0.2, -0.1), abs=0.02)
+    # An altitude that is wrong by three makes all shapes too small.
+    assert find_pad(objects, pose.altitude_m / 3) is None
+    assert find_pad(objects[:0], pose.altitude_m) is None
+
+
+def test_width_of_the_ring_is_that_of_the_camera() -> None:
+    for altitude_m in (0.3, 1.0, 3.0):
+        left, right = Camera().project(np.array([[-0.125, 0.0, altitude_m], [0.125, 0.0, altitude_m]]))
+        assert ring_width_px(altitude_m) == pytest.approx(right[0] - left[0])
+
+
+def test_variants_name_options_of_the_firmware_and_registers(tmp_path: Path) -> None:
+    variants = {variant.name: variant for variant in load_variants()}
+    production = variants["production"]
+    assert (production.paper, production.settings, production.options) == (False, Settings(), None)
+    assert [variant.name for variant in variants.values() if variant.paper and variant.settings == PAPER]
+    for text, words in (
+        ('[[variant]]\nname = "x"\nwithout = ["DETECT_LUCK"]\n', "DETECT_LUCK, which firmware/core/detect.h"),
+        ('[[variant]]\nname = "x"\nfaktor = 3\n', "faktor, which is no register"),
+    ):
+        (tmp_path / "o.toml").write_text(text)
+        with pytest.raises(UserError, match=words):
+            load_variants(tmp_path / "o.toml")
