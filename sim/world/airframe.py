@@ -17,7 +17,8 @@ _CAP_RGB = (170.0, 44.0, 40.0)
 def _layer(width: int, height: int, reach: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """Colour (height, width, 3) and mask (height, width), uint8."""
     random = np.random.default_rng([seed, 24])
-    colour, mask = np.zeros((height, width, 3), np.uint8), np.zeros((height, width), np.uint8)
+    colour = np.full((height, width, 3), _GRIP_RGB, np.uint8)
+    mask = np.zeros((height, width), np.uint8)
 
     def bar(middle: float, half: float, top: float, bottom: float, rgb: tuple[float, float, float]) -> None:
         corners = [(middle - half, top), (middle + half, top), (middle + half, bottom), (middle - half, bottom)]

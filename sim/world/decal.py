@@ -24,8 +24,11 @@ _RING_MIDDLE_MM = (pad.RING_OUTER_RADIUS_MM + pad.RING_INNER_RADIUS_MM) / 2
 _DARK_BLOTCH_RADIUS_MM = (2.0, 5.0)
 _LIGHT_BLOTCH_RADIUS_MM = (9.0, 22.0)
 _CLEAR_OF_SHAPES_MM = 9.0
+_LIGHT_BEYOND_MM = 97.0
 _MIDDLE = Ring(pad.SMALL_RING_OUTER_RADIUS_MM, 0.0)
 _LEAF_RGB = np.array([(150.0, 92.0, 44.0), (178.0, 122.0, 58.0), (120.0, 126.0, 62.0)])
+# Colour is drawn wider than its mask, so that the mask alone makes the soft edge.
+_BLEED_MM = 3.0
 _MOST_BLADES = 6000
 _BLADES_A_CHECK = 4
 _HALVINGS = 10
@@ -83,11 +86,15 @@ def _blank() -> tuple[np.ndarray, np.ndarray]:
     return np.zeros((SIDE_PX, SIDE_PX, 3), np.uint8), np.zeros((SIDE_PX, SIDE_PX), np.uint8)
 
 
+def _circle(radius_mm: float) -> np.ndarray:
+    turn = np.linspace(0, 2 * np.pi, 720, endpoint=False)
+    return radius_mm * np.column_stack([np.cos(turn), np.sin(turn)])
+
+
 @functools.cache
 def _disc() -> np.ndarray:
     disc = np.zeros((SIDE_PX, SIDE_PX), np.uint8)
-    turn = np.linspace(0, 2 * np.pi, 720, endpoint=False)
-    fill(disc, pad.RING_OUTER_RADIUS_MM * np.column_stack([np.cos(turn), np.sin(turn)]), 255)
+    fill(disc, _circle(pad.RING_OUTER_RADIUS_MM), 255)
     return disc
 
 
@@ -138,7 +145,7 @@ def _stalks(random: np.random.Generator, share: float) -> Decal:
         path = root + reach * np.column_stack([np.cos(bend), np.sin(bend)])
         tone = random.uniform(0.4, 1.1) * np.array([168.0, 152.0, 106.0])
         width = random.uniform(1.2, 4.5)
-        stroke(colour, path, tuple(tone.tolist()), width)
+        stroke(colour, path, tuple(tone.tolist()), width + _BLEED_MM)
         stroke(mask, path, 255, width)
     return Decal.of(colour, mask)
 
@@ -151,6 +158,7 @@ def _leaves(random: np.random.Generator, share: float, size: float) -> tuple[np.
         tone = random.uniform(0.55, 1.1) * _LEAF_RGB[random.integers(len(_LEAF_RGB))]
         outline = leaf_outline(centre, 200.0 * size * random.uniform(0.7, 1.0), random.uniform(0, 2 * np.pi))
         fill(colour, outline, tuple(tone.tolist()))
+        stroke(colour, np.vstack([outline, outline[:1]]), tuple(tone.tolist()), _BLEED_MM)
         fill(mask, outline, 255)
     return colour, mask
 
@@ -163,10 +171,10 @@ def _foot(random: np.random.Generator, share: float, size: float) -> tuple[np.nd
     width = 95.0 + 130.0 * share
     # The toe's middle runs from beyond the ring through to its other side.
     toe = inward * (300.0 * size - 125.0 - width / 2) + across * aside
-    path = np.array([toe, toe - 400.0 * inward])
+    path = np.array([toe, toe - 200.0 * inward])
     tone = float(random.uniform(25, 60))
     stroke(mask, path, 255, width)
-    stroke(colour, path, (1.9 * tone, 1.8 * tone, 1.7 * tone), width)
+    stroke(colour, path, (1.9 * tone, 1.8 * tone, 1.7 * tone), width + _BLEED_MM)
     stroke(colour, path, (tone, tone, 1.05 * tone), width - 14)
     return colour, mask
 
@@ -193,6 +201,8 @@ def dirt(share: float, seed: int) -> tuple[Texture, Texture, float]:
         fill(light, _blotch(random, (_RING_MIDDLE_MM + off) * np.array([math.cos(turn), math.sin(turn)]), radius), 255)
         for _ in range(3):
             fill(dark, _blotch(random, _free_place(random), random.uniform(*_DARK_BLOTCH_RADIUS_MM)), 255)
+    # Square and rectangle come close to the ring.
+    fill(light, _circle(_LIGHT_BEYOND_MM), 0)
     return Texture(light, SIDE_MM, repeats=False), Texture(dark, SIDE_MM, repeats=False), _ring_loss(light)
 
 
@@ -213,6 +223,5 @@ def _free_place(random: np.random.Generator) -> np.ndarray:
 
 def _ring_loss(light: np.ndarray) -> float:
     ring = _disc().copy()
-    turn = np.linspace(0, 2 * np.pi, 720, endpoint=False)
-    fill(ring, pad.RING_INNER_RADIUS_MM * np.column_stack([np.cos(turn), np.sin(turn)]), 0)
+    fill(ring, _circle(pad.RING_INNER_RADIUS_MM), 0)
     return cv2.mean(light, mask=ring)[0] / 255.0
