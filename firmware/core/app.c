@@ -18,8 +18,7 @@
 #define MIN_AREA_START_PX 100U
 #define MIN_AREA_LEAST_PX 30U
 #define MIN_AREA_GREATEST_PX 150U
-#define MIN_AREA_STEP_PX 10U
-#define OBJECTS_FEW 160U
+#define OBJECTS_FEW 215U
 #define RECORD_FLAGS                                                                                                   \
     (LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK | LANDING_HEADER_FLAGS_THRESHOLDS_STALE_MASK |                       \
      LANDING_HEADER_FLAGS_OBJECTS_OVERFLOW_MASK | LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK)
@@ -116,11 +115,14 @@ static void adapt_min_area(struct app *app, const struct landing_result_header *
     if (header->min_area != app->min_area_px || (header->flags & LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK) != 0U) {
         return;
     }
-    if (header->objects_dropped != 0U && app->min_area_px < MIN_AREA_GREATEST_PX) {
-        app->min_area_px += MIN_AREA_STEP_PX;
-    } else if (header->object_count < OBJECTS_FEW && app->min_area_px > MIN_AREA_LEAST_PX) {
-        app->min_area_px -= MIN_AREA_STEP_PX;
+    if (header->objects_dropped != 0U) {
+        app->min_area_px += app->min_area_px / 4U;
+    } else if (header->object_count < OBJECTS_FEW) {
+        app->min_area_px -= app->min_area_px / 5U;
     }
+    app->min_area_px = app->min_area_px < MIN_AREA_LEAST_PX      ? MIN_AREA_LEAST_PX
+                       : app->min_area_px > MIN_AREA_GREATEST_PX ? MIN_AREA_GREATEST_PX
+                                                                 : app->min_area_px;
 }
 
 uint32_t app_min_area_px(const struct app *app)
@@ -161,7 +163,9 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     // Smaller frames are the same camera, binned.
     struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
     camera.height_px = (double)record->header.frame_size_height;
-    const bool found = detect_pad(record, &camera, NULL, app->detect_options, &app->scratch, &pad) == 0;
+    struct detect_hint hint = detect_no_hint;
+    hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
+    const bool found = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
     if (found) {

@@ -23,6 +23,8 @@
 #define MATCH_AREA_RATIO 1.9
 // Of the small ring bloom and the opening can leave a third, or close its hole.
 #define MATCH_SMALL_RING_RATIO 3.0
+// A smaller one the opening takes, or leaves a part that is not in the middle.
+#define SMALL_RING_AREA_MIN_PX 200.0
 // Less than this inside the frame is a sliver that the opening may have taken.
 #define MATCH_INSIDE_MIN 0.25
 #define MATCH_INSIDE_WHOLE 0.999
@@ -39,6 +41,21 @@
 #define DOUBT_RING 3.0    // for all of the ring's print, where the frame would show it
 #define DOUBT_CLUTTER 2.0 // for dark things inside the ring that weigh as much as the rectangle
 #define DOUBT_NO_RING 0.5
+#define DOUBT_MISSING 1.5 // for a square, rectangle or small ring that should be there
+#define MISSING_INSIDE_MIN 0.9
+#define MISSING_SMALL_RING_AREA_MIN_PX 400.0
+#define HEIGHT_TOLERANCE 0.25
+#define HEIGHT_TOLERANCE_M 0.1
+#define DOUBT_HEIGHT 1.5 // for a LiDAR reading that contradicts the size
+// With only one of square and rectangle there is little to contradict a view.
+#define CLOSE_DOUBT_MAX 1.0
+// From afar the opening takes the ring. What is left must be nearly ideal and of the right size.
+#define FAR_DOUBT_MAX 1.0
+#define FAR_RING_WIDTH_PX 6.5
+#define FAR_HEIGHT_TOLERANCE 0.12
+#define FAR_HEIGHT_TOLERANCE_M 0.05
+// A view this bad may be the mirror image of a better one.
+#define MIRROR_MISFIT 1.5
 #define WORST_MAX 5.0
 #define NO_RING_SMALL_RING_AREA_MIN_PX 150.0
 #define EDGE_MAX_PX 3.0
@@ -50,7 +67,7 @@
 #define LINE_SIGMA_PX 0.03
 #define LINE_SIGMA_RING 0.001 // of the ring's diameter
 
-static const struct tilt_hint any_tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25};
+const struct detect_hint detect_no_hint = {.tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0};
 
 // What a view makes of the record.
 struct reading {
@@ -59,13 +76,15 @@ struct reading {
     double ring_share;
     double ring_inside; // share of the ring's print inside the frame
     double clutter;     // dark things inside the ring that are not of the pad, in rectangles
+    int missing;        // inner shapes that should be seen and are not
+    double ring_width_px;
     unsigned kinds;
 };
 
 struct context {
     const struct detect_scratch *scratch;
     const struct camera *camera;
-    const struct tilt_hint *tilt;
+    const struct detect_hint *hint;
     uint32_t options;
 };
 
@@ -141,6 +160,9 @@ static void match(const struct context *context, const struct pad_plane *plane, 
         }
     }
     const bool whole = inside > MATCH_INSIDE_WHOLE;
+    if (kind == PAD_SMALL_RING && expected.area_px < SMALL_RING_AREA_MIN_PX) {
+        return;
+    }
     if (!whole && (context->options & DETECT_CLOSE) == 0U) {
         return;
     }
@@ -165,6 +187,8 @@ static void match(const struct context *context, const struct pad_plane *plane, 
     }
     if (nearest != NULL) {
         add_sighting(reading, kind, &nearest->shape, nearest->clipped || !whole, false);
+    } else if (inside > MISSING_INSIDE_MIN && (kind != PAD_SMALL_RING || area_px > MISSING_SMALL_RING_AREA_MIN_PX)) {
+        reading->missing++;
     }
 }
 
@@ -216,12 +240,12 @@ static void match_ring(const struct context *context, const struct pad_plane *pl
     const double inside = pad_plane_moments(plane, context->camera, PAD_RING, true, &expected);
 
     reading->ring_inside = inside;
-    reading->ring_share = 0.0;
     if (!(inside > 0.05)) {
         return;
     }
     const double edges_px = inside * pad_edge_mm(PAD_RING) * sqrt(expected.area_px / (inside * pad_area_mm2(PAD_RING)));
     const double area_px = fmax(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
+    reading->ring_width_px = 2.0 * area_px / edges_px;
     for (int i = 0; i < context->scratch->count; i++) {
         const struct candidate *candidate = &context->scratch->candidates[i];
         const struct shape *shape = &candidate->shape;
@@ -285,8 +309,38 @@ static bool has(const struct reading *reading, unsigned kinds)
     return (reading->kinds & kinds) == kinds;
 }
 
+static double height_of(const struct pad_plane *plane)
+{
+    return METRES_PER_MM *
+           (plane->centre[0] * plane->normal[0] + plane->centre[1] * plane->normal[1] +
+            plane->centre[2] * plane->normal[2]) /
+           plane->normal[2];
+}
+
+static bool contradicts_lidar(const struct context *context, const struct pad_view *view)
+{
+    struct pad_plane plane;
+    const double expected_m = context->hint->height_m;
+
+    return expected_m > 0.0 && pad_plane_of(view, context->camera, &plane) == 0 &&
+           fabs(height_of(&plane) - expected_m) > HEIGHT_TOLERANCE * expected_m + HEIGHT_TOLERANCE_M;
+}
+
+// True where the ring cannot be seen any more, and the LiDAR says so too.
+static bool far_enough(const struct context *context, const struct reading *reading, const struct pad_view *view)
+{
+    struct pad_plane plane;
+
+    if ((context->options & DETECT_FAR) == 0U || reading->ring_width_px > FAR_RING_WIDTH_PX ||
+        pad_plane_of(view, context->camera, &plane) != 0) {
+        return false;
+    }
+    const double expected_m = context->hint->height_m;
+    return fabs(height_of(&plane) - expected_m) <= FAR_HEIGHT_TOLERANCE * expected_m + FAR_HEIGHT_TOLERANCE_M;
+}
+
 // How far the view is from being believed; a negative number if it cannot be at all.
-static double doubt_of(const struct reading *reading, const struct pad_view *view, double misfit, double worst)
+static double doubt_of(const struct context *context, const struct reading *reading, const struct pad_view *view, double misfit, double worst)
 {
     const double tilt = fmax(fabs(view->value[PAD_TILT_X]), fabs(view->value[PAD_TILT_Y]));
     const double share = fmin(reading->ring_share, 1.0);
@@ -300,12 +354,18 @@ static double doubt_of(const struct reading *reading, const struct pad_view *vie
     if (fabs(view->value[PAD_EDGE_PX]) > EDGE_MAX_PX || tilt > TILT_MAX || worst > WORST_MAX) {
         return -1.0;
     }
+    const double doubt = misfit + DOUBT_CLUTTER * reading->clutter + DOUBT_MISSING * reading->missing +
+                         (contradicts_lidar(context, view) ? DOUBT_HEIGHT : 0.0);
     // Two of three that do not depend on each other, one of them the pair or half of it.
-    if (!(pair && (ring || small_ring)) && !((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring)) {
-        return -1.0;
+    if (pair && (ring || small_ring)) {
+        return doubt +
+               DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE)) * (small_ring ? DOUBT_NO_RING : 1.0);
     }
-    return misfit + DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE)) * (small_ring ? DOUBT_NO_RING : 1.0) +
-           DOUBT_CLUTTER * reading->clutter;
+    if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
+        const double all = doubt + DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE));
+        return all <= CLOSE_DOUBT_MAX ? all : -1.0;
+    }
+    return pair && far_enough(context, reading, view) && doubt <= FAR_DOUBT_MAX ? doubt : -1.0;
 }
 
 // What was seen of a shape less what the view expects of it, at its centroid.
@@ -317,6 +377,12 @@ static struct vector left_over(const struct context *context, const struct pad_p
 
     pad_plane_moments(plane, context->camera, kind, sighting->clipped, &expected);
     return shape_offset(&expected, &sighting->seen);
+}
+
+static bool has_whole_pair(const struct reading *reading)
+{
+    return has(reading, PAD_SQUARE | PAD_RECTANGLE) && !reading->evidence.sightings[reading->place[0]].clipped &&
+           !reading->evidence.sightings[reading->place[1]].clipped;
 }
 
 // The view explains all shapes together; near the centre the shapes that are
@@ -338,8 +404,7 @@ static void centre_of(const struct context *context, const struct pad_plane *pla
         x += left.x / (sigma * sigma);
         y += left.y / (sigma * sigma);
     }
-    if (has(reading, PAD_SQUARE | PAD_RECTANGLE) && !reading->evidence.sightings[reading->place[0]].clipped &&
-        !reading->evidence.sightings[reading->place[1]].clipped) {
+    if (has_whole_pair(reading)) {
         const struct vector square = left_over(context, plane, reading, PAD_SQUARE);
         const struct vector rectangle = left_over(context, plane, reading, PAD_RECTANGLE);
         const struct shape *seen = &reading->evidence.sightings[reading->place[1]].seen;
@@ -353,21 +418,25 @@ static void centre_of(const struct context *context, const struct pad_plane *pla
     pad->y_px = pad->view.value[PAD_Y_PX] + (weight > 0.0 ? y / weight : 0.0);
 }
 
+// From the rectangle's centre to the square's. What is seen are centroids of
+// their images, which perspective moves apart; what they leave over is right.
 static struct vector direction_up(const struct context *context, const struct pad_plane *plane,
                                   const struct reading *reading)
 {
-    struct shape square;
-    struct shape rectangle;
+    struct vector square;
+    struct vector rectangle;
 
-    if (has(reading, PAD_SQUARE | PAD_RECTANGLE) && !reading->evidence.sightings[reading->place[0]].clipped &&
-        !reading->evidence.sightings[reading->place[1]].clipped) {
-        return shape_offset(&reading->evidence.sightings[reading->place[1]].seen,
-                            &reading->evidence.sightings[reading->place[0]].seen);
+    pad_plane_project(plane, context->camera, SQUARE_CENTRE_X_MM, SQUARE_CENTRE_Y_MM, &square.x, &square.y);
+    pad_plane_project(plane, context->camera, RECTANGLE_CENTRE_X_MM, RECTANGLE_CENTRE_Y_MM, &rectangle.x,
+                      &rectangle.y);
+    struct vector up = {.x = square.x - rectangle.x, .y = square.y - rectangle.y};
+    if (has_whole_pair(reading)) {
+        const struct vector square_left = left_over(context, plane, reading, PAD_SQUARE);
+        const struct vector rectangle_left = left_over(context, plane, reading, PAD_RECTANGLE);
+        up.x += square_left.x - rectangle_left.x;
+        up.y += square_left.y - rectangle_left.y;
     }
-    pad_plane_project(plane, context->camera, SQUARE_CENTRE_X_MM, SQUARE_CENTRE_Y_MM, &square.x_px, &square.y_px);
-    pad_plane_project(plane, context->camera, RECTANGLE_CENTRE_X_MM, RECTANGLE_CENTRE_Y_MM, &rectangle.x_px,
-                      &rectangle.y_px);
-    return shape_offset(&rectangle, &square);
+    return up;
 }
 
 static int report(const struct context *context, const struct reading *reading, struct pad_estimate *pad)
@@ -395,12 +464,42 @@ static int report(const struct context *context, const struct reading *reading, 
     pad->depth_m = plane.centre[2] * METRES_PER_MM;
     pad->right_m = ray.right * pad->depth_m;
     pad->forward_m = ray.forward * pad->depth_m;
-    pad->height_m = METRES_PER_MM *
-                    (plane.centre[0] * plane.normal[0] + plane.centre[1] * plane.normal[1] +
-                     plane.centre[2] * plane.normal[2]) /
-                    plane.normal[2];
+    pad->height_m = height_of(&plane);
     pad->ring_share = reading->ring_share;
     pad->kinds = reading->kinds | (reading->ring_share >= RING_SHARE_MIN ? (unsigned)PAD_RING : 0U);
+    return 0;
+}
+
+// The same picture to first order: a plane that is tilted the other way about the ray to its centre.
+static bool mirror(const struct context *context, struct pad_view *view)
+{
+    struct pad_plane plane;
+    double direction[3];
+
+    if (pad_plane_of(view, context->camera, &plane) != 0 ||
+        camera_direction(context->camera, view->value[PAD_X_PX], view->value[PAD_Y_PX], direction) != 0) {
+        return false;
+    }
+    const double along = plane.normal[0] * direction[0] + plane.normal[1] * direction[1] + plane.normal[2] * direction[2];
+    const double z = 2.0 * along * direction[2] - plane.normal[2];
+    if (!(z > 0.3)) {
+        return false;
+    }
+    view->value[PAD_TILT_X] = (2.0 * along * direction[0] - plane.normal[0]) / z;
+    view->value[PAD_TILT_Y] = (2.0 * along * direction[1] - plane.normal[1]) / z;
+    return true;
+}
+
+static int fit(const struct context *context, struct pad_view *view, struct reading *reading, double *misfit,
+               double *worst)
+{
+    // The first fit brings all shapes into reach; the second uses them.
+    for (int round = 0; round < 2; round++) {
+        if (read_record(context, view, reading) != 0 || reading->evidence.count < 2 ||
+            pad_fit(&reading->evidence, context->camera, &context->hint->tilt, view, misfit, worst) != 0) {
+            return DETECT_E_NO_PAD;
+        }
+    }
     return 0;
 }
 
@@ -410,14 +509,23 @@ static int try_view(const struct context *context, const struct pad_view *start,
     double worst;
 
     pad->view = *start;
-    // The first fit brings all shapes into reach; the second uses them.
-    for (int round = 0; round < 2; round++) {
-        if (read_record(context, &pad->view, &reading) != 0 || reading.evidence.count < 2 ||
-            pad_fit(&reading.evidence, context->camera, context->tilt, &pad->view, &pad->misfit, &worst) != 0) {
-            return DETECT_E_NO_PAD;
+    if (fit(context, &pad->view, &reading, &pad->misfit, &worst) != 0) {
+        return DETECT_E_NO_PAD;
+    }
+    if (pad->misfit > MIRROR_MISFIT && reading.evidence.count >= 3) {
+        struct pad_view view = pad->view;
+        struct reading mirrored;
+        double misfit;
+        double mirrored_worst;
+        if (mirror(context, &view) && fit(context, &view, &mirrored, &misfit, &mirrored_worst) == 0 &&
+            misfit < pad->misfit) {
+            pad->view = view;
+            pad->misfit = misfit;
+            reading = mirrored;
+            worst = mirrored_worst;
         }
     }
-    pad->doubt = doubt_of(&reading, &pad->view, pad->misfit, worst);
+    pad->doubt = doubt_of(context, &reading, &pad->view, pad->misfit, worst);
     if (pad->doubt < 0.0 || pad->doubt > DOUBT_MAX) {
         return DETECT_E_NO_PAD;
     }
@@ -441,11 +549,10 @@ static int try_all(const struct context *context, const struct hypotheses *hypot
     return result;
 }
 
-int detect_pad(const struct landing_record *record, const struct camera *camera, const struct tilt_hint *tilt,
+int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,
                uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad)
 {
-    const struct context context = {
-        .scratch = scratch, .camera = camera, .tilt = tilt != NULL ? tilt : &any_tilt, .options = options};
+    const struct context context = {.scratch = scratch, .camera = camera, .hint = hint, .options = options};
     struct hypotheses hypotheses = {.count = 0};
 
     collect(record, camera, scratch);

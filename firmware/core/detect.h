@@ -17,7 +17,8 @@ enum { DETECT_E_NO_PAD = -1 };
 #define DETECT_CLOSE 2U       // from the small ring, when the border cuts the shapes
 #define DETECT_FUSED 4U       // inner shapes that have run together, inside a whole ring
 #define DETECT_PERSPECTIVE 8U // the centre from the fitted view, not from the plain line between square and rectangle
-#define DETECT_ALL 15U
+#define DETECT_FAR 16U        // square and rectangle alone, where the ring is too thin to be seen and the LiDAR agrees
+#define DETECT_ALL 31U
 
 // A shape of the record and where it touches the frame.
 struct candidate {
@@ -47,8 +48,16 @@ struct pad_estimate {
     unsigned kinds;     // PAD_* that were seen
 };
 
-// `tilt`: how the plane is expected to lie; NULL = anyhow.
-int detect_pad(const struct landing_record *record, const struct camera *camera, const struct tilt_hint *tilt,
+// What is known before a record is read.
+struct detect_hint {
+    struct tilt_hint tilt; // how the plane is expected to lie
+    double height_m;       // of the camera, along its axis, as the LiDAR says; 0 = not known
+};
+
+// Level ground, roughly, and no altitude.
+extern const struct detect_hint detect_no_hint;
+
+int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,
                uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad);
 
 #endif

@@ -15,6 +15,13 @@
 #define CENTROID_SIGMA_SIZE 0.004
 #define RING_SIGMA_PX 0.5
 #define RING_SIGMA_SIZE 0.01
+// A small ring of less than this has a hole that the opening may close, on one side first.
+#define SMALL_RING_PRECISE_AREA_PX 150.0
+#define SMALL_RING_SIGMA_MAX_PX 3.0
+// Blur, threshold and opening round the corners of a square or rectangle:
+// sim/accuracy measures 19 px for all four, whatever the size.
+#define CORNERS_LOST_PX 19.0
+#define CORNER_SIZE_PX 2.4
 #define RING_SIGMA_EDGE 0.5
 #define EDGE_SIGMA_PX 0.12
 #define AREA_SIGMA 0.02
@@ -55,6 +62,10 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
         // Bloom that eats the ring eats more of it on the brighter side.
         sigma += RING_SIGMA_EDGE * fabs(edge_px);
     }
+    if (sighting->kinds == PAD_SMALL_RING) {
+        const double blur = SMALL_RING_PRECISE_AREA_PX / seen->area_px;
+        sigma += fmin(blur * blur, SMALL_RING_SIGMA_MAX_PX);
+    }
     if (sighting->clipped) {
         sigma += CLIPPED_SIGMA_PX + CLIPPED_SIGMA_SIZE * spread;
     }
@@ -63,7 +74,9 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
 
     // Whatever moves edges moves all of them alike.
     const double edges_px = inside * pad_edge_mm(sighting->kinds) * sqrt(expected->area_px / (inside * pad_area_mm2(sighting->kinds)));
-    const double area = fmax(expected->area_px + edge_px * edges_px, 1.0);
+    const bool box = sighting->kinds == PAD_SQUARE || sighting->kinds == PAD_RECTANGLE;
+    const double lost = box && !sighting->clipped ? CORNERS_LOST_PX : 0.0;
+    const double area = fmax(expected->area_px + edge_px * edges_px - lost, 1.0);
     const double area_sigma = EDGE_SIGMA_PX * edges_px + AREA_SIGMA * area;
     add(terms, sqrt(seen->area_px) - sqrt(area), doubt * area_sigma / (2.0 * sqrt(area)));
 
@@ -73,7 +86,13 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     double xx = expected->cov_xx;
     double xy = expected->cov_xy;
     double yy = expected->cov_yy;
-    if (sighting->kinds == PAD_SQUARE || sighting->kinds == PAD_RECTANGLE) {
+    if (box) {
+        // What the corners lose lies at sqrt(3) standard deviations along both sides, less its own size.
+        const double near = fmax(1.0 - CORNER_SIZE_PX / sqrt(expected->area_px), 0.0);
+        const double keep = fmax(1.0 - lost * (3.0 * near * near - 1.0) / area, 0.1);
+        xx *= keep;
+        xy *= keep;
+        yy *= keep;
         // (C^1/2 + m)^2 is nearly C + 2 m C^1/2
         const double root = sqrt(fmax(xx * yy - xy * xy, 0.0));
         const double move = 2.0 * SPREAD_OF_EDGE * edge_px / sqrt(xx + yy + 2.0 * root);
