@@ -13,9 +13,9 @@ static struct lidar_reading reading(uint32_t distance_mm, uint32_t age_us)
 
 void test_fusion(void)
 {
-    const struct pad_pose pose = {.height_m = 1.0};
+    const struct pad_estimate pad = {.height_m = 1.0};
     struct lidar_reading lidar = reading(1050, 1000);
-    struct altitude altitude = fusion_altitude(&lidar, &pose);
+    struct altitude altitude = fusion_altitude(&lidar, &pad);
 
     test_case("both agree: between them, nearer the surer one");
     CHECK(altitude.from_lidar && altitude.from_pad && !altitude.lidar_implausible);
@@ -23,11 +23,11 @@ void test_fusion(void)
 
     test_case("LiDAR wrong by 2");
     lidar = reading(2000, 1000);
-    altitude = fusion_altitude(&lidar, &pose);
+    altitude = fusion_altitude(&lidar, &pad);
     CHECK(!altitude.from_lidar && altitude.from_pad && altitude.lidar_implausible);
     NEAR(altitude.height_m, 1.0, 0.0);
     lidar = reading(500, 1000);
-    CHECK(fusion_altitude(&lidar, &pose).lidar_implausible);
+    CHECK(fusion_altitude(&lidar, &pad).lidar_implausible);
 
     test_case("no pad");
     lidar = reading(12345, 1000);
@@ -42,7 +42,7 @@ void test_fusion(void)
     altitude = fusion_altitude(&lidar, NULL);
     NEAR(altitude.height_m, 0.0, 0.0);
     CHECK(!altitude.from_lidar);
-    CHECK(fusion_altitude(&lidar, &pose).from_pad && !fusion_altitude(&lidar, &pose).lidar_implausible);
+    CHECK(fusion_altitude(&lidar, &pad).from_pad && !fusion_altitude(&lidar, &pad).lidar_implausible);
     lidar = reading(FUSION_LIDAR_MAX_MM + 1U, 0);
     CHECK(!fusion_lidar_usable(&lidar));
     lidar = reading(FUSION_LIDAR_MIN_MM - 1U, 0);

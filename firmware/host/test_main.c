@@ -42,11 +42,14 @@ int main(void)
     test_app();
     test_byte_ring();
     test_camera();
-    test_classify();
+    test_detect();
+    test_detect_not();
     test_frame_queue();
     test_fusion();
+    test_hypothesis();
     test_landing_hw();
-    test_pad_pose();
+    test_pad_fit();
+    test_pad_view();
     test_record();
     test_record_torn();
     test_shapes();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <math.h>
 #include <string.h>
 
-#include "classify.h"
-#include "pad_pose.h"
+#include "detect.h"
 #include "record.h"
 #include "test.h"
 #include "test_scene.h"
@@ -10,7 +10,7 @@
 static struct landing_record good;
 static struct landing_record bad;
 static struct landing_record copy;
-static struct classify_scratch scratch;
+static struct detect_scratch scratch;
 
 static size_t size_of(const struct landing_record *record)
 {
@@ -101,11 +101,11 @@ static void test_fuzz(void)
 {
     uint32_t random = 12345U;
     int passed = 0;
+    int found = 0;
 
     test_case("random damage");
     for (int round = 0; round < 20000; round++) {
-        struct pad_shapes pad;
-        struct pad_pose pose;
+        struct pad_estimate pad;
         bad = good;
         for (int hits = 0; hits < 1 + round % 3; hits++) {
             random = random * 1664525U + 1013904223U;
@@ -116,13 +116,16 @@ static void test_fuzz(void)
             continue;
         }
         passed++;
-        if (classify_pad(&bad, &scratch, &pad) == 0 && pad_pose_estimate(&pad, &camera_default, &pose) == 0) {
-            CHECK(pose.x_px > -1.0 && pose.x_px < 1280.0 && pose.y_px > -1.0 && pose.y_px < 720.0);
-            CHECK(pose.height_m > 0.0 && pose.height_m < 100.0);
-            CHECK(pose.angle_deg >= -180.0 && pose.angle_deg <= 180.0);
+        if (detect_pad(&bad, &camera_default, &detect_no_hint, DETECT_ALL, &scratch, &pad) == 0) {
+            found++;
+            CHECK(pad.x_px > -1.0 && pad.x_px < 1280.0 && pad.y_px > -1.0 && pad.y_px < 720.0);
+            CHECK(pad.height_m > 0.0 && pad.height_m < 100.0);
+            CHECK(pad.angle_deg >= -180.0 && pad.angle_deg <= 180.0);
+            CHECK(pad.doubt >= 0.0 && isfinite(pad.right_m) && isfinite(pad.forward_m) && isfinite(pad.depth_m));
         }
     }
     CHECK(passed > 1000);
+    CHECK(found > 500);
 }
 
 void test_record(void)

@@ -10,10 +10,19 @@
 #define WIDTH 1280
 #define HEIGHT 720
 #define REACH_M 0.16 // farther than the ring's edge, tilted towards the camera
+#define REACH_MM (1000.0 * REACH_M)
 
-static bool between(double value, double centre, double size)
+// Blur and the opening of the mask cut corners, whatever the shape's size: 19 px of a box in all.
+#define CORNER_PX 3.1
+
+static double corner_mm; // sides of the triangle that each corner loses
+
+static bool in_box(double x_mm, double y_mm, double width_mm, double height_mm)
 {
-    return fabs(value - centre) <= size / 2.0;
+    const double inside_x_mm = width_mm / 2.0 - fabs(x_mm);
+    const double inside_y_mm = height_mm / 2.0 - fabs(y_mm);
+
+    return inside_x_mm >= 0.0 && inside_y_mm >= 0.0 && inside_x_mm + inside_y_mm >= corner_mm;
 }
 
 bool scene_ring(double x_mm, double y_mm)
@@ -25,13 +34,13 @@ bool scene_ring(double x_mm, double y_mm)
 
 bool scene_square(double x_mm, double y_mm)
 {
-    return between(x_mm, SQUARE_CENTRE_X_MM, SQUARE_SIDE_MM) && between(y_mm, SQUARE_CENTRE_Y_MM, SQUARE_SIDE_MM);
+    return in_box(x_mm - SQUARE_CENTRE_X_MM, y_mm - SQUARE_CENTRE_Y_MM, SQUARE_SIDE_MM, SQUARE_SIDE_MM);
 }
 
 bool scene_rectangle(double x_mm, double y_mm)
 {
-    return between(x_mm, RECTANGLE_CENTRE_X_MM, RECTANGLE_WIDTH_MM) &&
-           between(y_mm, RECTANGLE_CENTRE_Y_MM, RECTANGLE_HEIGHT_MM);
+    return in_box(x_mm - RECTANGLE_CENTRE_X_MM, y_mm - RECTANGLE_CENTRE_Y_MM, RECTANGLE_WIDTH_MM,
+                  RECTANGLE_HEIGHT_MM);
 }
 
 bool scene_small_ring(double x_mm, double y_mm)
@@ -130,6 +139,7 @@ void scene_paint(struct landing_record *record, const struct scene *scene, scene
 
     // The rest of the frame cannot see the pad; looking there takes most of the time.
     scene_project_centre(scene, &centre_x, &centre_y);
+    corner_mm = CORNER_PX * 1000.0 * scene->height_m / camera_default.focal_px;
     const int reach = (int)(REACH_M * camera_default.focal_px / scene->height_m);
     for (int y = (int)fmax(centre_y - reach, 0.0); y < (int)fmin(centre_y + reach, HEIGHT); y++) {
         for (int x = (int)fmax(centre_x - reach, 0.0); x < (int)fmin(centre_x + reach, WIDTH); x++) {
@@ -166,15 +176,105 @@ void scene_paint_pixels(struct landing_record *record, uint16_t x, uint16_t y, u
     append(record, &object);
 }
 
+// Level axes (forward, right, down) to the camera's (right, down in the image, along its axis).
+static void to_camera(const struct attitude *attitude, const double level[3], double camera[3])
+{
+    double body[3];
+
+    for (int i = 0; i < 3; i++) {
+        body[i] = attitude->rows[0][i] * level[0] + attitude->rows[1][i] * level[1] + attitude->rows[2][i] * level[2];
+    }
+    camera[0] = body[1];
+    camera[1] = -body[0];
+    camera[2] = body[2];
+}
+
 void scene_project_centre(const struct scene *scene, double *x_px, double *y_px)
 {
     const struct attitude attitude = attitude_of(scene);
     const double level[3] = {scene->forward_m, scene->right_m, scene->height_m};
-    double body[3];
+    double centre[3];
 
-    for (int i = 0; i < 3; i++) {
-        body[i] = attitude.rows[0][i] * level[0] + attitude.rows[1][i] * level[1] + attitude.rows[2][i] * level[2];
-    }
-    const struct camera_ray ray = {.right = body[1] / body[2], .forward = body[0] / body[2]};
+    to_camera(&attitude, level, centre);
+    const struct camera_ray ray = {.right = centre[0] / centre[2], .forward = -centre[1] / centre[2]};
     camera_project(&camera_default, &ray, x_px, y_px);
+}
+
+struct pad_view scene_view(const struct scene *scene)
+{
+    const struct attitude attitude = attitude_of(scene);
+    const double heading = scene->heading_deg * RADIANS_PER_DEGREE;
+    const double level_across[3] = {-sin(heading), cos(heading), 0.0};
+    const double level_normal[3] = {0.0, 0.0, 1.0};
+    double across[3];
+    double normal[3];
+    struct pad_view view = {0};
+
+    to_camera(&attitude, level_across, across);
+    to_camera(&attitude, level_normal, normal);
+    scene_project_centre(scene, &view.value[PAD_X_PX], &view.value[PAD_Y_PX]);
+    view.value[PAD_LOG_DISTANCE_MM] =
+        log(1000.0 * sqrt(scene->forward_m * scene->forward_m + scene->right_m * scene->right_m +
+                          scene->height_m * scene->height_m));
+    view.value[PAD_YAW_RAD] = atan2(across[1], across[0]);
+    view.value[PAD_TILT_X] = normal[0] / normal[2];
+    view.value[PAD_TILT_Y] = normal[1] / normal[2];
+    return view;
+}
+
+double scene_count(const struct pad_plane *plane, const struct camera *camera, scene_shape shape, int fineness,
+                   bool clipped, struct shape *seen)
+{
+    const double pitch = 1.0 / fineness;
+    double sums[6] = {0.0};
+    double whole = 0.0;
+    double left_px = INFINITY;
+    double right_px = -INFINITY;
+    double top_px = INFINITY;
+    double bottom_px = -INFINITY;
+
+    corner_mm = 0.0;
+    // The corners of a square that holds the pad: lines of the plane bend in the image, so it is larger than the ring.
+    for (int i = 0; i < 4; i++) {
+        double x_px;
+        double y_px;
+        pad_plane_project(plane, camera, i % 2 == 0 ? -REACH_MM : REACH_MM, i / 2 == 0 ? -REACH_MM : REACH_MM, &x_px,
+                          &y_px);
+        left_px = fmin(left_px, x_px);
+        right_px = fmax(right_px, x_px);
+        top_px = fmin(top_px, y_px);
+        bottom_px = fmax(bottom_px, y_px);
+    }
+    const int columns = (int)((right_px - left_px) * fineness);
+    const int rows = (int)((bottom_px - top_px) * fineness);
+    for (int row = 0; row < rows; row++) {
+        for (int column = 0; column < columns; column++) {
+            const double x = (column + 0.5) * pitch;
+            const double y = (row + 0.5) * pitch;
+            const double x_px = left_px + x;
+            const double y_px = top_px + y;
+            double x_mm;
+            double y_mm;
+            if (pad_plane_unproject(plane, camera, x_px, y_px, &x_mm, &y_mm) != 0 || !shape(x_mm, y_mm)) {
+                continue;
+            }
+            whole += pitch * pitch;
+            if (clipped && (x_px < -0.5 || x_px > camera->width_px - 0.5 || y_px < -0.5 || y_px > camera->height_px - 0.5)) {
+                continue;
+            }
+            const double terms[6] = {1.0, x, y, x * x, x * y, y * y};
+            for (int i = 0; i < 6; i++) {
+                sums[i] += pitch * pitch * terms[i];
+            }
+        }
+    }
+    const double x = sums[1] / sums[0];
+    const double y = sums[2] / sums[0];
+    *seen = (struct shape){.area_px = sums[0],
+                           .x_px = left_px + x,
+                           .y_px = top_px + y,
+                           .cov_xx = sums[3] / sums[0] - x * x,
+                           .cov_xy = sums[4] / sums[0] - x * y,
+                           .cov_yy = sums[5] / sums[0] - y * y};
+    return whole;
 }

@@ -9,6 +9,8 @@
 
 #include "camera.h"
 #include "landing_regs.h"
+#include "pad_view.h"
+#include "shapes.h"
 
 struct scene {
     double height_m;    // camera above the ground
@@ -30,7 +32,8 @@ bool scene_small_ring(double x_mm, double y_mm);
 // An empty record of a 1280x720 frame.
 void scene_clear(struct landing_record *record);
 
-// Appends one object: the pixels whose centres see the shape.
+// Appends one object: the pixels whose centres see the shape, less its corners,
+// which the hardware's filters take.
 void scene_paint(struct landing_record *record, const struct scene *scene, scene_shape shape);
 
 // Appends all four shapes.
@@ -42,5 +45,14 @@ void scene_paint_pixels(struct landing_record *record, uint16_t x, uint16_t y, u
 
 // Where the ring's physical centre appears.
 void scene_project_centre(const struct scene *scene, double *x_px, double *y_px);
+
+// The same, as the firmware describes it; edges not moved.
+struct pad_view scene_view(const struct scene *scene);
+
+// Moments of the image of a shape of the pad by counting points, 1 / `fineness`
+// pixels apart, that see it, corners and all. `clipped`: only points inside the frame.
+// Returns the area without the frame's border.
+double scene_count(const struct pad_plane *plane, const struct camera *camera, scene_shape shape, int fineness,
+                   bool clipped, struct shape *seen);
 
 #endif

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole way from painted pixels to the pad, against the geometry painted.
+#include <math.h>
+
+#include "detect.h"
+#include "test.h"
+#include "test_scene.h"
+
+#define RADIANS_PER_DEGREE 0.017453292519943295
+
+static struct landing_record record;
+static struct detect_scratch scratch;
+static struct pad_estimate pad;
+
+static bool find(uint32_t options)
+{
+    return detect_pad(&record, &camera_default, &detect_no_hint, options, &scratch, &pad) == 0;
+}
+
+static bool find_pad(const struct scene *scene)
+{
+    scene_clear(&record);
+    scene_paint_pad(&record, scene);
+    return find(DETECT_ALL);
+}
+
+static double turn(double degrees)
+{
+    return remainder(degrees, 360.0);
+}
+
+static void check_centre(const struct scene *scene, double tolerance_px)
+{
+    double x_px;
+    double y_px;
+
+    scene_project_centre(scene, &x_px, &y_px);
+    NEAR(pad.x_px, x_px, tolerance_px);
+    NEAR(pad.y_px, y_px, tolerance_px);
+}
+
+static void check_level(const struct scene *scene)
+{
+    CHECK(find_pad(scene));
+    check_centre(scene, 0.2);
+    NEAR(pad.height_m, scene->height_m, 0.01 * scene->height_m);
+    NEAR(pad.depth_m, scene->height_m, 0.01 * scene->height_m);
+    NEAR(pad.right_m / pad.depth_m * scene->height_m, scene->right_m, 0.0005 * scene->height_m);
+    NEAR(pad.forward_m / pad.depth_m * scene->height_m, scene->forward_m, 0.0005 * scene->height_m);
+    CHECK(pad.doubt >= pad.misfit && pad.misfit >= 0.0 && pad.doubt < 0.3);
+}
+
+static void test_all_headings(void)
+{
+    for (int heading = 0; heading < 360; heading += 15) {
+        const struct scene scene = {.height_m = 1.0, .heading_deg = heading};
+        test_case("heading %d", heading);
+        check_level(&scene);
+        NEAR(turn(pad.angle_deg - heading), 0.0, 0.4);
+        CHECK(pad.angle_deg > -180.0 && pad.angle_deg <= 180.0);
+        CHECK(pad.kinds == (PAD_INNER | PAD_RING));
+        NEAR(pad.ring_share, 1.0, 0.05);
+    }
+}
+
+static void test_heights_and_places(void)
+{
+    static const double heights_m[] = {0.25, 0.4, 0.8, 1.3, 1.9, 2.6};
+    static const double places[][2] = {{0.0, 0.0}, {0.35, 0.0}, {0.0, -0.2}, {-0.4, 0.15}};
+
+    for (unsigned i = 0; i < sizeof heights_m / sizeof heights_m[0]; i++) {
+        for (unsigned j = 0; j < sizeof places / sizeof places[0]; j++) {
+            const struct scene scene = {
+                .height_m = heights_m[i],
+                .right_m = places[j][0] * heights_m[i],
+                .forward_m = places[j][1] * heights_m[i],
+                .heading_deg = 33.0,
+            };
+            test_case("height %.2f m, %.2f right, %.2f ahead", scene.height_m, scene.right_m, scene.forward_m);
+            check_level(&scene);
+        }
+    }
+}
+
+static void test_tilt(void)
+{
+    static const double tilts[][2] = {{8.0, 0.0}, {0.0, -8.0}, {-12.0, 8.0}, {20.0, 0.0}, {0.0, 25.0}, {-20.0, -20.0}};
+
+    for (unsigned i = 0; i < sizeof tilts / sizeof tilts[0]; i++) {
+        for (int heading = 0; heading < 360; heading += 60) {
+            const struct scene scene = {
+                .height_m = i % 2U == 0U ? 1.0 : 0.5,
+                .heading_deg = heading,
+                .roll_deg = tilts[i][0],
+                .pitch_deg = tilts[i][1],
+            };
+            test_case("roll %.0f, pitch %.0f, heading %d", scene.roll_deg, scene.pitch_deg, heading);
+            CHECK(find_pad(&scene));
+            check_centre(&scene, 0.2);
+            const struct pad_view truth = scene_view(&scene);
+            const double level = cos(scene.roll_deg * RADIANS_PER_DEGREE) * cos(scene.pitch_deg * RADIANS_PER_DEGREE);
+            NEAR(pad.height_m, scene.height_m / level, 0.02 * scene.height_m); // along the axis, not the plumb line
+            NEAR(pad.view.value[PAD_TILT_X], truth.value[PAD_TILT_X], 0.06);
+            NEAR(pad.view.value[PAD_TILT_Y], truth.value[PAD_TILT_Y], 0.06);
+        }
+    }
+}
+
+// The plain line between the shapes is what perspective moves; the fitted view takes that out.
+static void test_perspective(void)
+{
+    const struct scene scene = {.height_m = 0.35, .heading_deg = 10.0, .pitch_deg = 22.0};
+    double x_px;
+    double y_px;
+
+    test_case("perspective");
+    CHECK(find_pad(&scene));
+    check_centre(&scene, 0.2);
+    CHECK(find(DETECT_ALL & ~DETECT_PERSPECTIVE));
+    scene_project_centre(&scene, &x_px, &y_px);
+    CHECK(hypot(pad.x_px - x_px, pad.y_px - y_px) > 1.0);
+    test_case("a hint of the tilt");
+    const struct pad_view truth = scene_view(&scene);
+    const struct detect_hint hint = {.tilt = {truth.value[PAD_TILT_X], truth.value[PAD_TILT_Y], 0.02}};
+    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
+    NEAR(pad.view.value[PAD_TILT_X], hint.tilt.x, 0.01);
+    NEAR(pad.view.value[PAD_TILT_Y], hint.tilt.y, 0.01);
+}
+
+// So low or so far aside that the border cuts the ring, then the shapes.
+static void test_cut_by_the_border(void)
+{
+    static const struct scene scenes[] = {
+        {.height_m = 0.19, .heading_deg = 90.0},
+        {.height_m = 0.17, .heading_deg = 0.0},
+        {.height_m = 0.17, .heading_deg = 180.0},
+        {.height_m = 0.6, .forward_m = 0.31, .heading_deg = 120.0},
+        {.height_m = 0.8, .right_m = -0.94, .heading_deg = -90.0},
+        {.height_m = 0.17, .forward_m = -0.08, .heading_deg = 0.0}, // all of the rectangle but a strip
+    };
+
+    for (unsigned i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        test_case("cut by the border, scene %u", i);
+        CHECK(find_pad(&scenes[i]));
+        check_centre(&scenes[i], 0.6);
+        NEAR(turn(pad.angle_deg - scenes[i].heading_deg), 0.0, 6.0);
+        NEAR(pad.height_m, scenes[i].height_m, 0.05 * scenes[i].height_m);
+    }
+    test_case("without what looks from close by, a cut rectangle is nothing");
+    CHECK(find_pad(&scenes[5]));
+    CHECK((pad.kinds & PAD_SMALL_RING) != 0U);
+    CHECK(!find(DETECT_ALL & ~DETECT_CLOSE));
+}
+
+static bool gap(double x_mm, double y_mm)
+{
+    return fabs(x_mm + y_mm) < 8.0 || fabs(x_mm - y_mm) < 8.0;
+}
+
+static bool right_piece(double x_mm, double y_mm)
+{
+    return scene_ring(x_mm, y_mm) && !gap(x_mm, y_mm) && x_mm > fabs(y_mm);
+}
+
+static bool left_piece(double x_mm, double y_mm)
+{
+    return right_piece(-x_mm, y_mm);
+}
+
+static bool lower_piece(double x_mm, double y_mm)
+{
+    return right_piece(y_mm, x_mm);
+}
+
+static bool upper_piece(double x_mm, double y_mm)
+{
+    return right_piece(-y_mm, x_mm);
+}
+
+static void test_broken_ring(void)
+{
+    const struct scene scene = {.height_m = 1.1, .right_m = 0.2, .heading_deg = 50.0};
+
+    test_case("broken ring");
+    scene_clear(&record);
+    scene_paint(&record, &scene, left_piece);
+    scene_paint(&record, &scene, right_piece);
+    scene_paint(&record, &scene, upper_piece);
+    scene_paint(&record, &scene, lower_piece);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    CHECK(find(DETECT_ALL));
+    check_centre(&scene, 0.2);
+    CHECK((pad.kinds & PAD_RING) != 0U);
+    const double doubt = pad.doubt;
+    CHECK(!find(DETECT_ALL & ~DETECT_RING_PIECES));
+    test_case("with half of the ring, there is more doubt");
+    scene_clear(&record);
+    scene_paint(&record, &scene, upper_piece);
+    scene_paint(&record, &scene, left_piece);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    CHECK(find(DETECT_ALL));
+    NEAR(pad.ring_share, 0.5, 0.1);
+    CHECK(pad.doubt > doubt + 0.5);
+    check_centre(&scene, 0.3);
+}
+
+void test_detect(void)
+{
+    test_all_headings();
+    test_heights_and_places();
+    test_tilt();
+    test_perspective();
+    test_cut_by_the_border();
+    test_broken_ring();
+}
