@@ -37,9 +37,9 @@ _BORDER_RING_SHARE = (0.3, 0.97)
 # Black and white level, ground, noise as measured in the three campaigns (see docs/world.md), each with its spread.
 _LEVELS = ((65.0, 214.0), (70.0, 225.0), (153.0, 252.0))
 _LIGHT_STEP_EVERY = 5
-_LIGHT_STEPS_EV = (0.0, -2.0, 0.0, 1.0, 0.0, -1.0, 0.0, 2.0)
+_LIGHT_STEPS_EV = (0.0, -2.0, 0.0, 1.0, -1.0, 1.0, 0.0, -1.5)
 
-# What each sweep changes and the values it takes; the first is undisturbed.
+# What each sweep changes and the values it takes.
 SWEEPS: dict[str, tuple[float, ...]] = {
     "shadow_edge": (0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9),
     "occlusion": (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5),
@@ -53,6 +53,7 @@ SWEEPS: dict[str, tuple[float, ...]] = {
     "exposure": (-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5),
     "gradient": (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2),
     "curl": (0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0),
+    "sharpening": (0.0, 0.1, 0.2, 0.3, 0.4, 0.5),
     "blur": (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0),
 }
 
@@ -205,7 +206,8 @@ def _typical(random: np.random.Generator, index: int, camera: Camera) -> Scene:
         legs=random.choice((0.0, random.uniform(0.55, 0.75))) if not glare else 0.0,
         occlusion=random.choice((0.0, 0.0, 0.0, random.uniform(0.002, 0.02))),
     )
-    ground = "grass" if random.random() < 0.6 else GROUNDS[int(random.integers(len(GROUNDS)))]
+    # The photographs are all of grass, and the glaring ones of nothing brighter.
+    ground = "grass" if glare or random.random() < 0.6 else GROUNDS[int(random.integers(len(GROUNDS)))]
     return Scene(pose, look, _scene_seed(random), camera, ground=ground, disturbances=disturbances)
 
 
@@ -297,7 +299,8 @@ def _disturbed(scene: Scene, disturbance: str, value: float, random: np.random.G
         x, y = project_pad(scene.camera, scene.pose, np.zeros((1, 2)))[0]
         leaned = dataclasses.replace(scene.pose, **_tilt(random, value))
         return dataclasses.replace(scene, pose=_pad_at(scene.camera, leaned, float(x), float(y)))
-    looks = {"motion": "motion_px", "noise": "noise_sigma", "gradient": "gradient", "blur": "edge_px"}
+    looks = {"motion": "motion_px", "noise": "noise_sigma", "gradient": "gradient"}
+    looks |= {"blur": "edge_px", "sharpening": "overshoot"}
     if disturbance in looks:
         return dataclasses.replace(scene, look=dataclasses.replace(scene.look, **{looks[disturbance]: value}))
     name = {"exposure": "exposure_ev", "curl": "curl_per_m"}.get(disturbance, disturbance)
