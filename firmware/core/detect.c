@@ -23,8 +23,9 @@
 #define MATCH_AREA_RATIO 1.9
 // Of the small ring bloom and the opening can leave a third, or close its hole.
 #define MATCH_SMALL_RING_RATIO 3.0
-// A smaller one the opening takes, or leaves a part that is not in the middle.
-#define SMALL_RING_AREA_MIN_PX 200.0
+// Standard deviation along the shorter axis, nearly the width of its print. From
+// a thinner one the opening takes so much that the rest is not in the middle.
+#define SMALL_RING_SHORT_MIN_PX 5.0
 // Less than this inside the frame is a sliver that the opening may have taken.
 #define MATCH_INSIDE_MIN 0.25
 #define MATCH_INSIDE_WHOLE 0.999
@@ -160,7 +161,11 @@ static void match(const struct context *context, const struct pad_plane *plane, 
         }
     }
     const bool whole = inside > MATCH_INSIDE_WHOLE;
-    if (kind == PAD_SMALL_RING && expected.area_px < SMALL_RING_AREA_MIN_PX) {
+    double long_px;
+    double short_px;
+    struct vector axis;
+    shape_axes(&expected, &long_px, &short_px, &axis);
+    if (kind == PAD_SMALL_RING && short_px < SMALL_RING_SHORT_MIN_PX) {
         return;
     }
     if (!whole && (context->options & DETECT_CLOSE) == 0U) {
@@ -512,20 +517,18 @@ static int try_view(const struct context *context, const struct pad_view *start,
     if (fit(context, &pad->view, &reading, &pad->misfit, &worst) != 0) {
         return DETECT_E_NO_PAD;
     }
+    pad->doubt = doubt_of(context, &reading, &pad->view, pad->misfit, worst);
     if (pad->misfit > MIRROR_MISFIT && reading.evidence.count >= 3) {
-        struct pad_view view = pad->view;
+        struct pad_estimate other = {.view = pad->view};
         struct reading mirrored;
-        double misfit;
-        double mirrored_worst;
-        if (mirror(context, &view) && fit(context, &view, &mirrored, &misfit, &mirrored_worst) == 0 &&
-            misfit < pad->misfit) {
-            pad->view = view;
-            pad->misfit = misfit;
-            reading = mirrored;
-            worst = mirrored_worst;
+        if (mirror(context, &other.view) && fit(context, &other.view, &mirrored, &other.misfit, &worst) == 0) {
+            other.doubt = doubt_of(context, &mirrored, &other.view, other.misfit, worst);
+            if (other.doubt >= 0.0 && (pad->doubt < 0.0 || other.doubt < pad->doubt)) {
+                *pad = other;
+                reading = mirrored;
+            }
         }
     }
-    pad->doubt = doubt_of(context, &reading, &pad->view, pad->misfit, worst);
     if (pad->doubt < 0.0 || pad->doubt > DOUBT_MAX) {
         return DETECT_E_NO_PAD;
     }
@@ -556,7 +559,7 @@ int detect_pad(const struct landing_record *record, const struct camera *camera,
     struct hypotheses hypotheses = {.count = 0};
 
     collect(record, camera, scratch);
-    hypotheses_from_pairs(scratch, camera, options, &hypotheses);
+    hypotheses_from_pairs(scratch, camera, hint->height_m, options, &hypotheses);
     if (try_all(&context, &hypotheses, pad) == 0) {
         return 0;
     }

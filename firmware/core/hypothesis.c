@@ -38,6 +38,9 @@ static const struct range small_ring_invariant = {6.5, 13.2};
 static const struct range small_ring_to_rectangle_area = {0.05, 0.27};
 static const struct range ring_invariant = {1.3, 4.6};
 static const struct range inner_to_ring_area = {0.3, 0.75};
+// From afar: a ring of 25 mm is 7 px wide where the rectangle has 400.
+#define FAR_RECTANGLE_AREA_MAX_PX 400.0
+#define FAR_HEIGHT_TOLERANCE 0.25
 // From close by the small ring is large, and looks like itself.
 static const struct range near_small_ring_invariant = {7.6, 9.8};
 #define NEAR_SMALL_RING_AREA_MIN_PX 700.0
@@ -51,6 +54,7 @@ static const struct range piece_radius_mm = {82.0, 148.0};
 #define RING_SHARE_MIN 0.25
 // Grass has pairs of any kind; what is between and around them tells them from the pad.
 #define PIECE_ERROR 0.05
+#define HEIGHT_ERROR_MAX 0.3
 // Shapes smaller than this have edges that are as large as themselves.
 #define INNER_RADIUS_MAX_MM 92.0
 
@@ -211,8 +215,26 @@ static bool has_small_ring(const struct detect_scratch *scratch, const struct af
     return false;
 }
 
-static void consider_pair(const struct detect_scratch *scratch, const struct camera *camera, uint32_t options,
-                          const struct shape *square, const struct shape *rectangle, struct hypotheses *found)
+// Height of the camera as a level view has it, m; 0 if it looks past the ground.
+static double height_of(const struct camera *camera, const struct pad_view *view)
+{
+    double direction[3];
+
+    if (camera_direction(camera, view->value[PAD_X_PX], view->value[PAD_Y_PX], direction) != 0) {
+        return 0.0;
+    }
+    return 0.001 * exp(view->value[PAD_LOG_DISTANCE_MM]) * fmax(direction[2], 0.0);
+}
+
+// True where the ring may be too thin to be seen and the LiDAR says the same of the distance.
+static bool is_far(const struct shape *rectangle, double seen_m, double height_m)
+{
+    return rectangle->area_px <= FAR_RECTANGLE_AREA_MAX_PX && seen_m > (1.0 - FAR_HEIGHT_TOLERANCE) * height_m &&
+           seen_m < (1.0 + FAR_HEIGHT_TOLERANCE) * height_m;
+}
+
+static void consider_pair(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
+                          uint32_t options, const struct shape *square, const struct shape *rectangle, struct hypotheses *found)
 {
     const struct vector line = shape_offset(rectangle, square);
     const double squared = shape_inner(rectangle, line, line);
@@ -229,8 +251,13 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
     }
     const struct surroundings around =
         surroundings_of(scratch, &affine, square, rectangle, (options & DETECT_RING_PIECES) != 0U);
-    if ((around.ring_share < RING_SHARE_MIN && !has_small_ring(scratch, &affine, rectangle)) ||
-        !view_of(&affine, camera, &hypothesis.view)) {
+    if (!view_of(&affine, camera, &hypothesis.view)) {
+        return;
+    }
+    const double seen_m = height_of(camera, &hypothesis.view);
+    if (!(seen_m > 0.0) ||
+        (around.ring_share < RING_SHARE_MIN && !has_small_ring(scratch, &affine, rectangle) &&
+         !((options & DETECT_FAR) != 0U && is_far(rectangle, seen_m, height_m)))) {
         return;
     }
     hypothesis.error = deviation(square->area_px / rectangle->area_px, SQUARE_AREA / RECTANGLE_AREA) +
@@ -239,11 +266,15 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
                        deviation(square->invariant, SHAPE_INVARIANT_RECTANGLE) +
                        deviation(rectangle->invariant, SHAPE_INVARIANT_RECTANGLE) + fmax(0.0, 0.7 - around.ring_share) +
                        PIECE_ERROR * around.pieces + around.clutter;
+    if (height_m > 0.0) {
+        // Tilt and a beam that meets something else make it differ; more than that does not make it worse.
+        hypothesis.error += fmin(deviation(seen_m, height_m), HEIGHT_ERROR_MAX);
+    }
     keep(found, &hypothesis);
 }
 
-void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, uint32_t options,
-                           struct hypotheses *found)
+void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
+                           uint32_t options, struct hypotheses *found)
 {
     // By rising area, so that the squares of a rectangle are neighbours.
     int first = 0;
@@ -260,7 +291,7 @@ void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct ca
             if (square->area_px > greatest) {
                 break;
             }
-            consider_pair(scratch, camera, options, square, rectangle, found);
+            consider_pair(scratch, camera, height_m, options, square, rectangle, found);
         }
     }
 }

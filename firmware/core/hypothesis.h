@@ -19,9 +19,10 @@ struct hypotheses {
 };
 
 // Square and rectangle, by the ratios that no tilt changes. Each pair needs
-// something else of the pad around it: pieces of the ring, or the small ring.
-void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, uint32_t options,
-                           struct hypotheses *found);
+// something else of the pad around it: pieces of the ring, or the small ring, or
+// from afar, where both are too thin to be seen, a height that the LiDAR confirms.
+void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
+                           uint32_t options, struct hypotheses *found);
 
 // A small ring seen from close by, with large shapes on one side or both.
 void hypotheses_from_small_rings(const struct detect_scratch *scratch, const struct camera *camera,

@@ -22,8 +22,12 @@
 // sim/accuracy measures 19 px for all four, whatever the size.
 #define CORNERS_LOST_PX 19.0
 #define CORNER_SIZE_PX 2.4
+// And the opening eats a ring thinner than this where it is thinnest.
+#define RING_THIN_PX 7.0
+#define RING_SIGMA_THIN 0.6
 #define RING_SIGMA_EDGE 0.5
 #define EDGE_SIGMA_PX 0.12
+#define SMALL_RING_EDGE_SIGMA_PX 0.6 // the opening may take much of it
 #define AREA_SIGMA 0.02
 #define SPREAD_SIGMA_PX 0.10
 #define SPREAD_SIGMA 0.015
@@ -56,11 +60,14 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     const bool ring = (sighting->kinds & PAD_RING) != 0U;
     const double doubt = sighting->pieces ? PIECES_FACTOR : 1.0;
     const double spread = sqrt((expected->cov_xx + expected->cov_yy) / 2.0);
+    const double edges_px =
+        inside * pad_edge_mm(sighting->kinds) * sqrt(expected->area_px / (inside * pad_area_mm2(sighting->kinds)));
+    const double width_px = 2.0 * expected->area_px / edges_px;
     double sigma = ring ? RING_SIGMA_PX + RING_SIGMA_SIZE * spread : CENTROID_SIGMA_PX + CENTROID_SIGMA_SIZE * spread;
 
     if (ring) {
         // Bloom that eats the ring eats more of it on the brighter side.
-        sigma += RING_SIGMA_EDGE * fabs(edge_px);
+        sigma += RING_SIGMA_EDGE * fabs(edge_px) + RING_SIGMA_THIN * fmax(0.0, RING_THIN_PX - width_px);
     }
     if (sighting->kinds == PAD_SMALL_RING) {
         const double blur = SMALL_RING_PRECISE_AREA_PX / seen->area_px;
@@ -73,11 +80,11 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     add(terms, seen->y_px - expected->y_px, doubt * sigma);
 
     // Whatever moves edges moves all of them alike.
-    const double edges_px = inside * pad_edge_mm(sighting->kinds) * sqrt(expected->area_px / (inside * pad_area_mm2(sighting->kinds)));
     const bool box = sighting->kinds == PAD_SQUARE || sighting->kinds == PAD_RECTANGLE;
     const double lost = box && !sighting->clipped ? CORNERS_LOST_PX : 0.0;
     const double area = fmax(expected->area_px + edge_px * edges_px - lost, 1.0);
-    const double area_sigma = EDGE_SIGMA_PX * edges_px + AREA_SIGMA * area;
+    const double edge_sigma_px = sighting->kinds == PAD_SMALL_RING ? SMALL_RING_EDGE_SIGMA_PX : EDGE_SIGMA_PX;
+    const double area_sigma = edge_sigma_px * edges_px + AREA_SIGMA * area;
     add(terms, sqrt(seen->area_px) - sqrt(area), doubt * area_sigma / (2.0 * sqrt(area)));
 
     if (sighting->clipped || sighting->kinds == PAD_SMALL_RING) {
