@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from sim.world.decal import OCCLUDERS
 
 _MOST_OCCLUSION = 0.5
+_MOST_STEPS = 8.0
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,10 @@ class Disturbances:
                 raise ValueError(f"{name} is {getattr(self, name)}; it must be within 0 and 1")
         if not 0 <= self.occlusion <= _MOST_OCCLUSION:
             raise ValueError(f"occlusion is {self.occlusion}; it must be within 0 and {_MOST_OCCLUSION}")
+        if not abs(self.exposure_ev) <= _MOST_STEPS:
+            raise ValueError(f"exposure_ev is {self.exposure_ev}; it must be within {_MOST_STEPS} steps")
+        if not self.penumbra_mm > 0:
+            raise ValueError(f"penumbra_mm is {self.penumbra_mm}; it must be above 0")
         if self.occluder not in OCCLUDERS:
             raise ValueError(f"occluder is {self.occluder}; it must be one of {', '.join(OCCLUDERS)}")
 

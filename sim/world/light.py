@@ -107,7 +107,7 @@ def shadow_edge_line(seed: int) -> tuple[float, float, float]:
 def _shadow_edge(x_mm: np.ndarray, y_mm: np.ndarray, bad: Disturbances, seed: int) -> np.ndarray:
     across, down, off = (np.float32(value) for value in shadow_edge_line(seed))
     beyond = across * x_mm + down * y_mm - off
-    dark = np.clip(beyond / np.float32(max(bad.penumbra_mm, 1e-3)) + np.float32(0.5), 0, 1)
+    dark = np.clip(beyond / np.float32(bad.penumbra_mm) + np.float32(0.5), 0, 1)
     # The part of a round sun that a straight edge leaves, nearly.
     return 1 - np.float32(bad.shadow_edge) * (dark * dark * (3 - 2 * dark))
 

@@ -42,10 +42,24 @@ def firmware(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
 
 
 @pytest.mark.parametrize("divisor", [1, 4])
-def test_firmware_inverts_the_renderer(firmware: ctypes.CDLL, divisor: int) -> None:
-    camera = Camera().scaled(divisor)
-    default = FirmwareCamera.in_dll(firmware, "camera_default")
-    scaled = firmware.camera_scaled(ctypes.byref(default), float(camera.width))
+@pytest.mark.parametrize(
+    "camera",
+    [Camera(), Camera(1280, 720, 548.0, 655.0, 341.0, -0.03, 0.004), Camera(radial_2=0.02), Camera(radial_4=-0.004)],
+)
+def test_firmware_inverts_the_renderer(firmware: ctypes.CDLL, camera: Camera, divisor: int) -> None:
+    given = FirmwareCamera(
+        camera.focal_px,
+        camera.centre_x,
+        camera.centre_y,
+        camera.width,
+        camera.height,
+        camera.radial_2,
+        camera.radial_4,
+    )
+    if camera == Camera():
+        assert bytes(given) == bytes(FirmwareCamera.in_dll(firmware, "camera_default"))
+    camera = camera.scaled(divisor)
+    scaled = firmware.camera_scaled(ctypes.byref(given), float(camera.width))
     random = np.random.default_rng(4)
     for right, forward, altitude in random.uniform((-3, -2, 0.3), (3, 2, 4), (300, 3)):
         truth = truth_of(camera, Pose(altitude, right, forward))

@@ -22,7 +22,7 @@ from sim.world.scene import Scene, SceneTruth, render_scene
 
 POSE = Pose(altitude_m=0.5, right_m=0.03, forward_m=-0.02, pad_yaw_deg=25.0, roll_deg=3.0, pitch_deg=-4.0)
 QUIET = Look(noise_sigma=0.0, overshoot=0.0)
-LENS = Camera(focal_px=548.0, centre_x=655.0, centre_y=341.0, radial=-0.03)
+LENS = Camera(focal_px=548.0, centre_x=655.0, centre_y=341.0, radial_2=-0.04, radial_4=0.005)
 SHAPES = {
     "square": (box(pad.SQUARE_CENTRE_X_MM, pad.SQUARE_CENTRE_Y_MM, pad.SQUARE_SIDE_MM, pad.SQUARE_SIDE_MM), 1.12),
     "rectangle": (
@@ -66,7 +66,7 @@ def paper() -> np.ndarray:
     [
         Scene(POSE, CLEAN),
         Scene(POSE, CLEAN, camera=LENS),
-        Scene(dataclasses.replace(POSE, right_m=0.4), CLEAN, camera=Camera(radial=0.02)),
+        Scene(dataclasses.replace(POSE, right_m=0.4), CLEAN, camera=Camera(radial_2=0.02)),
         Scene(POSE, CLEAN, seed=3, disturbances=Disturbances(curl_per_m=0.8)),
         Scene(POSE, CLEAN, seed=8, camera=LENS, disturbances=Disturbances(curl_per_m=0.5)),
     ],
@@ -101,20 +101,20 @@ def test_the_small_ring_is_where_the_truth_says(camera: Camera, curl: float, asi
 
 
 def test_rays_invert_projection_with_distortion() -> None:
-    for camera in (LENS, Camera(radial=0.05), Camera(radial=-0.05).scaled(4)):
+    for camera in (LENS, Camera(radial_2=0.05), Camera(radial_2=-0.05).scaled(4)):
         columns, lines = np.meshgrid(np.arange(camera.width), np.arange(camera.height))
         assert np.abs(camera.project(camera.rays()) - np.stack([columns, lines], axis=-1)).max() < 2e-3
 
 
 def test_a_barrel_draws_in_and_stays_outside_past_its_turning_point() -> None:
-    barrel, plain = Camera(radial=-0.05), Camera()
+    barrel, plain = Camera(radial_2=-0.05), Camera()
     points = np.array([[0.5, 0.0, 1.0], [-1.0, 0.0, -0.9]])
     near, past = barrel.project(points) - (640.0, 360.0)
     straight = plain.project(points)[0, 0] - 640
     assert near[0] == pytest.approx(straight * (1 - 0.05 * (straight / 552) ** 2))
     assert past[0] < -640
     with pytest.raises(ValueError, match="corners"):
-        Camera(radial=-0.2)
+        Camera(radial_2=-0.2)
 
 
 def test_curl_raises_the_edges_and_keeps_lengths() -> None:
@@ -307,7 +307,16 @@ def test_grounds_have_texture_and_are_their_own(kind: str) -> None:
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"shadow_edge": 1.2}, {"occlusion": 0.6}, {"occluder": "cat"}, {"dirt": -0.1}, {"wet": math.nan}, {"legs": 2.0}],
+    [
+        {"shadow_edge": 1.2},
+        {"occlusion": 0.6},
+        {"occluder": "cat"},
+        {"dirt": -0.1},
+        {"wet": math.nan},
+        {"legs": 2.0},
+        {"exposure_ev": math.nan},
+        {"penumbra_mm": 0.0},
+    ],
 )
 def test_disturbances_out_of_range_are_refused(wrong: dict[str, float | str]) -> None:
     with pytest.raises(ValueError, match=next(iter(wrong))):
