@@ -21,7 +21,7 @@ PAD_FIELDS = (
     "frame_number",
     "object_count",
     "flags",
-    "error",
+    "doubt",
     "size_altitude_m",
 )
 """The elements of the ground station's DEBUG_FLOAT_ARRAY; `firmware/core/app.h` owns the order."""
