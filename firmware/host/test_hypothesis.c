@@ -20,6 +20,12 @@ static void collect(void)
     found.count = 0;
 }
 
+static void from_pairs(double height_m, uint32_t options)
+{
+    found.count = 0;
+    hypotheses_from_pairs(&scratch, &camera_default, height_m, options, &found);
+}
+
 static bool is_near(const struct hypothesis *hypothesis, const struct scene *scene)
 {
     const struct pad_view truth = scene_view(scene);
@@ -64,7 +70,7 @@ static void test_pairs(void)
         scene_clear(&record);
         scene_paint_pad(&record, &scene);
         collect();
-        hypotheses_from_pairs(&scratch, &camera_default, DETECT_ALL, &found);
+        from_pairs(0.0, DETECT_ALL);
         CHECK(found.count > 0 && is_near(&found.list[0], &scene));
         check_sorted();
     }
@@ -89,22 +95,40 @@ static void test_witness_of_pairs(void)
     scene_paint(&record, &scene, scene_square);
     scene_paint(&record, &scene, scene_rectangle);
     collect();
-    hypotheses_from_pairs(&scratch, &camera_default, DETECT_ALL, &found);
+    from_pairs(0.0, DETECT_ALL);
     CHECK(found.count == 0);
     test_case("pieces of a ring, if they are to count");
     scene_paint(&record, &scene, piece_of_ring);
     scene_paint(&record, &scene, opposite_piece);
     collect();
-    hypotheses_from_pairs(&scratch, &camera_default, DETECT_ALL, &found);
+    from_pairs(0.0, DETECT_ALL);
     CHECK(any_near(&scene));
-    found.count = 0;
-    hypotheses_from_pairs(&scratch, &camera_default, DETECT_ALL & ~DETECT_RING_PIECES, &found);
+    from_pairs(0.0, DETECT_ALL & ~DETECT_RING_PIECES);
     CHECK(found.count == 0);
     test_case("or the small ring");
     scene_paint(&record, &scene, scene_small_ring);
     collect();
-    hypotheses_from_pairs(&scratch, &camera_default, DETECT_ALL & ~DETECT_RING_PIECES, &found);
+    from_pairs(0.0, DETECT_ALL & ~DETECT_RING_PIECES);
     CHECK(any_near(&scene));
+}
+
+static void test_far_pairs(void)
+{
+    const struct scene scene = {.height_m = 2.4, .heading_deg = 75.0};
+
+    test_case("from afar the LiDAR is witness enough");
+    scene_clear(&record);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    collect();
+    from_pairs(2.4, DETECT_ALL);
+    CHECK(any_near(&scene));
+    from_pairs(2.4, DETECT_ALL & ~DETECT_FAR);
+    CHECK(found.count == 0);
+    from_pairs(1.2, DETECT_ALL);
+    CHECK(found.count == 0);
+    from_pairs(0.0, DETECT_ALL);
+    CHECK(found.count == 0);
 }
 
 static void test_only_the_best_stay(void)
@@ -120,7 +144,7 @@ static void test_only_the_best_stay(void)
         scene_paint_pad(&record, &scene);
     }
     collect();
-    hypotheses_from_pairs(&scratch, &camera_default, DETECT_ALL, &found);
+    from_pairs(0.0, DETECT_ALL);
     CHECK(found.count == HYPOTHESES);
     check_sorted();
 }
@@ -181,6 +205,7 @@ void test_hypothesis(void)
 {
     test_pairs();
     test_witness_of_pairs();
+    test_far_pairs();
     test_only_the_best_stay();
     test_small_rings();
     test_rings();

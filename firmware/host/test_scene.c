@@ -259,7 +259,8 @@ double scene_count(const struct pad_plane *plane, const struct camera *camera, s
                 continue;
             }
             whole += pitch * pitch;
-            if (clipped && (x_px < -0.5 || x_px > camera->width_px - 0.5 || y_px < -0.5 || y_px > camera->height_px - 0.5)) {
+            if (clipped && (fabs(x_px + 0.5 - camera->width_px / 2.0) > camera->width_px / 2.0 ||
+                            fabs(y_px + 0.5 - camera->height_px / 2.0) > camera->height_px / 2.0)) {
                 continue;
             }
             const double terms[6] = {1.0, x, y, x * x, x * y, y * y};
