@@ -165,6 +165,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     camera.height_px = (double)record->header.frame_size_height;
     struct detect_hint hint = detect_no_hint;
     hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
+    attitude_tilt(&app->attitude, now_us, &hint.tilt);
     const bool found = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
@@ -179,10 +180,19 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
 void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us)
 {
     for (size_t i = 0; i < size; i++) {
-        int64_t request_ns;
-        if (mavlink_in_timesync_request(&app->in[link], bytes[i], &request_ns)) {
-            uint8_t reply[MAVLINK_OUT_MAX_BYTES];
-            send(app, link, reply, mavlink_out_timesync_reply(&app->out[link], now_us, request_ns, reply));
+        struct mavlink_in_message message;
+        uint8_t reply[MAVLINK_OUT_MAX_BYTES];
+        switch (mavlink_in_byte(&app->in[link], bytes[i], &message)) {
+        case MAVLINK_IN_TIMESYNC_REQUEST:
+            send(app, link, reply, mavlink_out_timesync_reply(&app->out[link], now_us, message.request_ns, reply));
+            break;
+        case MAVLINK_IN_ATTITUDE:
+            if (link == APP_LINK_AUTOPILOT) {
+                attitude_set(&app->attitude, (double)message.roll_rad, (double)message.pitch_rad, now_us);
+            }
+            break;
+        case MAVLINK_IN_NOTHING:
+            break;
         }
     }
 }

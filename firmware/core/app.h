@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "attitude.h"
 #include "camera.h"
 #include "detect.h"
 #include "fusion.h"
@@ -85,6 +86,7 @@ struct app {
     uint64_t last_record_us;
     uint32_t last_frame_number; // 0 = none yet
     uint64_t next_complaint_us[APP_COMPLAINTS];
+    struct attitude attitude;
     bool camera_lost;
     bool lidar_worked; // since power-up
     uint32_t min_area_px;

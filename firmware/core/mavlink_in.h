@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one thing that Touchdown listens to: TIMESYNC. An autopilot that asks can
-// turn the time_usec of LANDING_TARGET into its own time (PX4 does).
+// What Touchdown listens to: TIMESYNC, by which an autopilot turns the time_usec
+// of LANDING_TARGET into its own time (PX4 does), and ATTITUDE, which says how
+// the ground lies before the camera.
 #ifndef TOUCHDOWN_MAVLINK_IN_H
 #define TOUCHDOWN_MAVLINK_IN_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include <common/mavlink.h>
@@ -14,10 +14,17 @@ struct mavlink_in {
     mavlink_status_t status;
 };
 
+enum mavlink_in_kind { MAVLINK_IN_NOTHING, MAVLINK_IN_TIMESYNC_REQUEST, MAVLINK_IN_ATTITUDE };
+
+struct mavlink_in_message {
+    int64_t request_ns; // of a TIMESYNC request
+    float roll_rad;     // of an ATTITUDE; right side down is positive
+    float pitch_rad;    // nose up is positive
+};
+
 void mavlink_in_init(struct mavlink_in *in);
 
-// Takes one byte. True when it completes a TIMESYNC request, whose
-// timestamp is then in `request_ns`.
-bool mavlink_in_timesync_request(struct mavlink_in *in, uint8_t byte, int64_t *request_ns);
+// Takes one byte. Says what it completes; the fields of that kind are then set.
+enum mavlink_in_kind mavlink_in_byte(struct mavlink_in *in, uint8_t byte, struct mavlink_in_message *message);
 
 #endif
