@@ -22,6 +22,7 @@ from lxml import etree
 from scripts.corepage_timing import as_text, simulate
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.lint import YOSYS, include_flags
+from scripts.page_block import find_block, with_block
 from tb.common.cores import ROOT, core_names, load_core
 from tb.common.figures import PAGES, numbers, sections
 
@@ -124,17 +125,12 @@ def block_of(core: str, text: str, name: str) -> re.Match[str]:
     Raises:
         UserError: The page has no such markers.
     """
-    found = re.search(rf"(?<=<!-- {name} -->\n).*?(?=<!-- /{name} -->)", text, flags=re.DOTALL)
-    if found is None:
-        raise UserError(f"docs/cores/{core}.md has no lines <!-- {name} --> and <!-- /{name} -->; put them in.")
-    return found
+    return find_block(text, name, f"docs/cores/{core}.md")
 
 
 def put_block(core: str, name: str, content: str) -> None:
     """Replace what stands between two markers of a page."""
-    text = read_page(core)
-    place = block_of(core, text, name)
-    page_path(core).write_text(f"{text[: place.start()]}{content}\n{text[place.end() :]}", encoding="utf-8")
+    page_path(core).write_text(with_block(read_page(core), name, content, f"docs/cores/{core}.md"), encoding="utf-8")
 
 
 def timing_source(core: str, text: str) -> re.Match[str]:

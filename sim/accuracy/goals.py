@@ -68,3 +68,11 @@ def judge(goals: Sequence[Goal], rows: Sequence[Row]) -> list[Verdict]:
             state = MET if len(chosen) >= goal.frames else OPEN
         verdicts.append(Verdict(goal, value, len(chosen), state))
     return verdicts
+
+
+GOAL_HEAD = ("", "figure", "goal")
+
+
+def goal_lines(verdicts: Sequence[Verdict]) -> list[tuple[str, ...]]:
+    """A line a goal."""
+    return [(verdict.state, verdict.figure, verdict.goal.name) for verdict in verdicts]

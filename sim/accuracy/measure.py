@@ -5,12 +5,14 @@ import multiprocessing
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
 import cv2
 
 from scripts.demo_results import Row as Seen
+from sim.accuracy.causes import shapes_seen
 from sim.accuracy.paths import golden, rtl
 from sim.accuracy.rows import Row
 from sim.accuracy.shots import Film, Unit, develop
@@ -26,20 +28,21 @@ def rows_of(film: Film, seen: Sequence[Seen]) -> list[Row]:
     rows = []
     for shot, reference, one in zip(film.unit.shots, film.references, seen, strict=True):
         header = one.record["header"]
-        rows.append(
-            Row(
-                set=film.unit.set,
-                name=shot.name,
-                difficulty=shot.difficulty,
-                strength=shot.strength,
-                reference=reference,
-                pad=one.pad,
-                altitude_m=one.altitude_m,
-                objects=int(header["object_count"]),
-                dropped=int(header["objects_dropped"]),
-                min_area_px=int(header["min_area"]),
-            )
+        row = Row(
+            set=film.unit.set,
+            name=shot.name,
+            difficulty=shot.difficulty,
+            strength=shot.strength,
+            reference=reference,
+            pad=one.pad,
+            altitude_m=one.altitude_m,
+            objects=int(header["object_count"]),
+            dropped=int(header["objects_dropped"]),
+            min_area_px=int(header["min_area"]),
         )
+        if row.missed:
+            row = replace(row, shapes=shapes_seen(one.objects, reference, shot.lidar_m))
+        rows.append(row)
     return rows
 
 

@@ -4,6 +4,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 
@@ -33,6 +34,7 @@ class Summary:
         mean_m: Mean distance from the true place.
         max_m: The greatest.
         max_share: The greatest distance as a part of what is allowed (1 % of altitude + 5 mm).
+        longest_gap: Most required frames in a row that were missed; says something of a clip alone.
     """
 
     frames: int
@@ -50,6 +52,7 @@ class Summary:
     mean_m: float | None
     max_m: float | None
     max_share: float | None
+    longest_gap: int
 
     @property
     def missing(self) -> int:
@@ -79,6 +82,7 @@ def summarise(rows: Sequence[Row]) -> Summary:
         mean_m=_mean(place),
         max_m=_max(place),
         max_share=_max(_known(row.position_share for row in good)),
+        longest_gap=max((len(list(run)) for missed, run in groupby(rows, lambda row: row.missed) if missed), default=0),
     )
 
 

@@ -115,3 +115,24 @@ def _curve(frame: _Frame, points: Sequence[tuple[float, float, float, float]], u
             f"<circle class='primary' cx='{frame.across(x):.1f}' cy='{frame.down(y):.1f}' r='3'>"
             f"<title>{label}</title></circle>"
         )
+
+
+_COLUMNS = 3
+_STYLE = (
+    "svg{background:#fff}text{fill:#17212b;font:12px sans-serif}.title{font-size:14px;font-weight:600}"
+    ".unit,.tick{fill:#5a6a78;font-weight:400}.grid{stroke:#dfe5ea}polyline{fill:none;stroke:#0b7fc1;stroke-width:2}"
+    "circle,polygon{fill:#0b7fc1}polygon{opacity:.18}"
+)
+
+
+def grid(plots: Sequence[str]) -> str:
+    """Plots side by side in one SVG that needs no style sheet."""
+    lines = -(-len(plots) // _COLUMNS)
+    width, height = _COLUMNS * _WIDTH, lines * _HEIGHT
+    placed = []
+    for index, plot in enumerate(plots):
+        x, y = index % _COLUMNS * _WIDTH, index // _COLUMNS * _HEIGHT
+        place = f"<svg x='{x}' y='{y}' width='{_WIDTH}' height='{_HEIGHT}'"
+        placed.append(plot.replace("<svg", place, 1))
+    head = f"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {width} {height}' width='{width}'>"
+    return f"{head}<style>{_STYLE}</style>{''.join(placed)}</svg>\n"

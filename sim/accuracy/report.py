@@ -7,19 +7,24 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from scripts.report import write_page
-from sim.accuracy.goals import Verdict
+from sim.accuracy.goals import GOAL_HEAD, Verdict, goal_lines
 from sim.accuracy.photos import PREFIX
 from sim.accuracy.plots import error_curve, histogram, rate_curve
 from sim.accuracy.rows import Row
-from sim.accuracy.tables import CURVE_HEAD, END_HEAD, HEAD, as_html, curve_lines, curves, end_lines, set_lines
+from sim.accuracy.sheets import SHEETS
+from sim.accuracy.tables import (
+    CURVE_HEAD,
+    END_HEAD,
+    HEAD,
+    MISS_HEAD,
+    as_html,
+    curve_lines,
+    curves,
+    end_lines,
+    miss_lines,
+    set_lines,
+)
 
-_SHEETS = {
-    "photos": "Photographs",
-    "missed": "Missed",
-    "false": "False detections",
-    "worst": "Farthest centres",
-    "samples": "Samples of the rendered sets",
-}
 _NOTE = (
     "Found: within 5 px and 5 degrees of the truth; farther is false, as is any detection without a pad. Errors are of "
     "the found pads. With + : pads found though square or rectangle is cut, covered or tiny. Of allowed: greatest "
@@ -41,17 +46,18 @@ def write_report(
     """
     sections = [f"<header><h1>Accuracy</h1><p>{len(rows)} frames, path: {html.escape(run)}.</p></header>"]
     if verdicts:
-        lines = [(verdict.state, verdict.goal.name, verdict.figure) for verdict in verdicts]
-        sections.append(_section("Goals", as_html(("state", "goal", "figure"), lines)))
+        sections.append(_section("Goals", as_html(GOAL_HEAD, goal_lines(verdicts))))
     sections.append(
         _section("Sets", as_html(HEAD, set_lines(rows, PREFIX)), f"<p class='note'>{html.escape(_NOTE)}</p>")
     )
+    if misses := miss_lines(rows):
+        sections.append(_section("Missed, and what the record shows of it", as_html(MISS_HEAD, misses)))
     sections.append(_section("Errors", f"<div class='charts'>{''.join(_histograms(rows))}</div>"))
     if plots := [plot(name, points) for name, points in curves(rows).items() for plot in (rate_curve, error_curve)]:
         ends = as_html(END_HEAD, end_lines(rows))
         table = as_html(CURVE_HEAD, curve_lines(rows))
         sections.append(_section("Where it ends", ends, f"<div class='charts'>{''.join(plots)}</div>", table))
-    for name, title in _SHEETS.items():
+    for name, title in SHEETS.items():
         if name in sheets:
             sections.append(_section(title, _sheet(title, sheets[name])))
     write_page(path, "accuracy", sections)

@@ -58,6 +58,7 @@ class Row:
         objects: Objects in the record.
         dropped: Objects that did not fit into it.
         min_area_px: MIN_AREA of the record.
+        shapes: Of a frame that was missed, what became of the pad's shapes.
     """
 
     set: str
@@ -70,6 +71,7 @@ class Row:
     objects: int
     dropped: int
     min_area_px: int
+    shapes: str = ""
 
     @property
     def error_x_px(self) -> float | None:

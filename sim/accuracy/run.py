@@ -14,16 +14,28 @@ from pathlib import Path
 
 from firmware.library import make
 from scripts.errors import ArgumentParser, UserError, run_main
-from sim.accuracy.goals import NOT_MET, judge, load_goals
+from sim.accuracy.goals import GOAL_HEAD, NOT_MET, goal_lines, judge, load_goals
 from sim.accuracy.measure import Workers, measure_golden, measure_rtl
 from sim.accuracy.options import compare, lines, load_variants
+from sim.accuracy.page import write_blocks, write_measured
 from sim.accuracy.photos import PREFIX, photo_units
 from sim.accuracy.rendered import SETS, rendered_units
 from sim.accuracy.report import write_report
-from sim.accuracy.rows import Row, write_rows
+from sim.accuracy.rows import Row, read_rows, write_rows
 from sim.accuracy.sheets import write_sheets
 from sim.accuracy.shots import Unit
-from sim.accuracy.tables import CURVE_HEAD, END_HEAD, HEAD, as_text, curve_lines, end_lines, set_lines
+from sim.accuracy.tables import (
+    CURVE_HEAD,
+    END_HEAD,
+    HEAD,
+    MISS_HEAD,
+    as_markdown,
+    as_text,
+    curve_lines,
+    end_lines,
+    miss_lines,
+    set_lines,
+)
 from sim.cosim.build import build_host
 
 OUT = Path("build/accuracy")
@@ -70,6 +82,8 @@ def build(run: str) -> None:
 def tables(rows: Sequence[Row]) -> str:
     """All tables as text."""
     parts = [as_text(HEAD, set_lines(rows, PREFIX))]
+    if misses := miss_lines(rows):
+        parts.append(as_text(MISS_HEAD, misses))
     if curve := curve_lines(rows):
         parts += [as_text(CURVE_HEAD, curve), as_text(END_HEAD, end_lines(rows))]
     return "\n\n".join(parts)
@@ -77,20 +91,27 @@ def tables(rows: Sequence[Row]) -> str:
 
 def measure(units: Sequence[Unit], workers: Workers, options: Namespace) -> int:
     """Measure, print and write everything; 1 if a goal is not met."""
-    rows = [row for part in workers.map("frames and clips", RUNS[options.run], units) for row in part]
-    write_rows(options.out / ROWS, rows)
+    if options.again:
+        rows = read_rows(options.out / ROWS)
+    else:
+        rows = [row for part in workers.map("frames and clips", RUNS[options.run], units) for row in part]
+        write_rows(options.out / ROWS, rows)
+    if {row.set for row in rows} - {unit.set for unit in units}:
+        raise UserError(f"{options.out / ROWS} holds other sets; give the options with which it was made.")
     verdicts = [] if options.no_goals else judge(load_goals(), rows)
     sheets = write_sheets(rows, units, options.out, workers)
     report = options.out / "report.html"
     write_report(report, rows, verdicts, sheets, options.run)
     print(f"\n{tables(rows)}\n")
-    for verdict in verdicts:
-        print(f"{verdict.state:7}  {verdict.goal.name}: {verdict.figure}")
+    if verdicts:
+        print(as_text(GOAL_HEAD, goal_lines(verdicts)))
+    if options.write:
+        write_measured(rows, judge(load_goals(), rows), units, workers)
     print(f"\n{len(rows)} frames, path: {options.run}. Report: {report}. Rows: {options.out / ROWS}.")
     return int(any(verdict.state == NOT_MET for verdict in verdicts))
 
 
-def measure_options(units: Sequence[Unit], workers: Workers, out_dir: Path) -> None:
+def measure_options(units: Sequence[Unit], workers: Workers, options: Namespace) -> None:
     """Measure every variant of `options.toml`, print and keep the table."""
     variants = load_variants()
     task = partial(compare, variants=variants)
@@ -98,9 +119,12 @@ def measure_options(units: Sequence[Unit], workers: Workers, out_dir: Path) -> N
     results = []
     for index, variant in enumerate(variants):
         rows = [row for parts in by_unit for row in parts[index]]
-        write_rows(out_dir / OPTION_ROWS / f"{index:02d}.jsonl", rows)
+        write_rows(options.out / OPTION_ROWS / f"{index:02d}.jsonl", rows)
         results.append((variant.name, rows))
-    print(f"\n{as_text(*lines(results))}\n\nRows: {out_dir / OPTION_ROWS}.")
+    head, table = lines(results)
+    print(f"\n{as_text(head, table)}\n\nRows: {options.out / OPTION_ROWS}.")
+    if options.write:
+        write_blocks({"options": as_markdown(head, table)})
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -112,6 +136,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--count", type=int, help="frames a rendered set (default: the set's own number)")
     parser.add_argument("--run", choices=RUNS, default="golden", help="the golden models, or the verilated RTL")
     parser.add_argument("--options", action="store_true", help="compare the variants of options.toml instead")
+    parser.add_argument("--write", action="store_true", help="write tables and pictures into docs/accuracy.md")
+    parser.add_argument("--again", action="store_true", help="tables and report anew, from the rows of the last run")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     parser.add_argument("--no-goals", action="store_true", help="do not compare with the goals")
     parser.add_argument("--out", type=Path, default=OUT, help="folder for rows, pictures and report")
@@ -121,7 +147,7 @@ def main(arguments: list[str] | None = None) -> int:
     build(options.run)
     with Workers(options.jobs, lambda text: print(text, flush=True)) as workers:
         if options.options:
-            measure_options(units, workers, options.out)
+            measure_options(units, workers, options)
             code = 0
         else:
             code = measure(units, workers, options)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Contact sheets: many annotated frames in one picture, to look at rather than to count."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +16,13 @@ from sim.accuracy.photos import PREFIX
 from sim.accuracy.rows import Row
 from sim.accuracy.shots import Unit, develop
 
+SHEETS = {
+    "photos": "Photographs",
+    "missed": "Missed",
+    "false": "False detections",
+    "worst": "Farthest centres",
+    "samples": "Samples of the rendered sets",
+}
 _COLUMNS = 4
 _THUMB = (480, 270)
 _CAPTION_PX = 26
@@ -45,7 +52,7 @@ def plan(rows: Sequence[Row]) -> dict[str, list[Row]]:
         "worst": by_error[:_WORST],
         "samples": [row for part in _by_set(rows) for row in part[:: max(1, len(part) // _SAMPLES)][:_SAMPLES]],
     }
-    return {name: chosen[:_FULL_SHEET] for name, chosen in sheets.items() if chosen}
+    return {name: chosen for name, chosen in sheets.items() if chosen}
 
 
 def _by_set(rows: Sequence[Row]) -> Iterator[list[Row]]:
@@ -68,7 +75,15 @@ def caption(row: Row) -> str:
     return " ".join(words)
 
 
-def write_sheets(rows: Sequence[Row], units: Sequence[Unit], out_dir: Path, workers: Workers) -> dict[str, Path]:
+def write_sheets(
+    rows: Sequence[Row],
+    units: Sequence[Unit],
+    out_dir: Path,
+    workers: Workers,
+    *,
+    names: Container[str] = SHEETS,
+    most: int = _FULL_SHEET,
+) -> dict[str, Path]:
     """Draw the sheets.
 
     Args:
@@ -76,13 +91,19 @@ def write_sheets(rows: Sequence[Row], units: Sequence[Unit], out_dir: Path, work
         units: Where they come from.
         out_dir: Where the pictures go.
         workers: Who draws.
+        names: Which of `SHEETS`; those without a frame are left out.
+        most: Frames a sheet.
 
     Returns:
         Paths by name of the sheet.
     """
     unit_of = {(unit.set, shot.name): unit for unit in units for shot in unit.shots}
     paths = {}
-    for name, chosen in plan(rows).items():
+    for name, frames in plan(rows).items():
+        if name not in names:
+            continue
+        # Evenly over all of them: the first ones would be those of one set.
+        chosen = frames[:: -(-len(frames) // most)]
         thumbs = workers.map(f"sheet {name}", _thumb, [(unit_of[row.set, row.name], row) for row in chosen])
         path = out_dir / f"sheet_{name}.jpg"
         sheet = tile(list(thumbs))

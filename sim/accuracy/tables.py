@@ -57,6 +57,18 @@ def set_lines(rows: Sequence[Row], total: str | None = None) -> list[tuple[str, 
     return lines
 
 
+MISS_HEAD = ("set", "frame", "objects", "MIN_AREA [px]", "what became of the shapes")
+
+
+def miss_lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
+    """A line a missed frame; sweeps go to where everything is missed and are left out."""
+    return [
+        (row.set, row.name, f"{row.objects}{f' +{row.dropped}' * bool(row.dropped)}", str(row.min_area_px), row.shapes)
+        for row in rows
+        if row.missed and row.strength is None
+    ]
+
+
 CURVE_HEAD = (
     "disturbance",
     "strength",
@@ -131,4 +143,4 @@ def as_html(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
     """An HTML table, in the style of `scripts/report.css`."""
     top = "".join(f"<th>{html.escape(cell)}</th>" for cell in head)
     body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in line) + "</tr>" for line in lines)
-    return f"<div class='scroll'><table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>"
+    return f"<div class='scroll'><table class='words'><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>"

@@ -72,6 +72,7 @@ def test_summary() -> None:
     figures = summarise(rows)
     assert (figures.frames, figures.required, figures.found, figures.false) == (5, 4, 2, 1)
     assert figures.missed == ("far", "none")
+    assert figures.longest_gap == 2
     assert figures.mean_x_px == pytest.approx(0.2)
     assert figures.mean_y_px == pytest.approx(0.1)
     assert figures.max_px == pytest.approx(0.3)
