@@ -30,7 +30,7 @@ def test_rendered_descent_is_found_where_it_is(firmware: str, tmp_path: Path) ->
         assert error_m < 0.02, line
         latency_us = float(line.split()[-6])
         # LANDING_TARGET takes 0.78 ms on the wire at 921600 baud.
-        assert 700 < latency_us < 3_000, line
+        assert 700 < latency_us < 5_000, line
         assert "LANDING_TARGET #" in line
     assert f"Pad found in {FRAMES} of {FRAMES} frames; {FRAMES + 1} frames shown" in done.stdout
     assert (tmp_path / "report.html").stat().st_size > 100_000

@@ -109,7 +109,7 @@ def test_the_pad_becomes_a_landing_target(on_qemu: CosimResult) -> None:
     assert [message.time_usec for _, message in targets] == started
     for (index, _), frame in zip(targets, on_qemu.frames[1:], strict=True):
         latency_ns = on_qemu.uart0.done_ns[index] - frame.last_pixel_ns
-        assert 0 < latency_ns < 3_000_000, f"frame {frame.index}: {latency_ns} ns from last pixel to last byte"
+        assert 0 < latency_ns < 5_000_000, f"frame {frame.index}: {latency_ns} ns from last pixel to last byte"
 
 
 def test_bytes_take_their_time_on_the_wire(on_qemu: CosimResult) -> None:
