@@ -78,7 +78,7 @@ static void send_landing_target(struct app *app, const struct landing_record *re
 
 // `pad` is NULL when none was found.
 static void send_pad_array(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
-                           const struct altitude *altitude)
+                           bool bridged, const struct altitude *altitude)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     float values[APP_PAD_FIELDS] = {0.0F};
@@ -87,6 +87,7 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
     flags |= altitude->from_lidar ? APP_FLAG_ALTITUDE_LIDAR : 0U;
     flags |= altitude->from_pad ? APP_FLAG_ALTITUDE_PAD : 0U;
     flags |= altitude->lidar_implausible ? APP_FLAG_LIDAR_IMPLAUSIBLE : 0U;
+    flags |= bridged ? APP_FLAG_BRIDGED : 0U;
     if (pad != NULL) {
         flags |= (pad->kinds & PAD_RING) != 0U ? APP_FLAG_RING : 0U;
         flags |= (pad->kinds & PAD_SMALL_RING) != 0U ? APP_FLAG_SMALL_RING : 0U;
@@ -166,14 +167,20 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     struct detect_hint hint = detect_no_hint;
     hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
     attitude_tilt(&app->attitude, now_us, &hint.tilt);
-    const bool found = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
+    const bool seen = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
+    const enum track_result track =
+        (app->detect_options & DETECT_TRACK) != 0U
+            ? tracker_update(&app->tracker, &camera, record->header.start_time_us, seen, &pad)
+            : seen ? TRACK_MEASURED
+                   : TRACK_NONE;
+    const bool found = track != TRACK_NONE;
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
     if (found) {
-        app->health[APP_HEALTH_PADS]++;
+        app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
         send_landing_target(app, record, &pad, &altitude);
     }
-    send_pad_array(app, record, found ? &pad : NULL, &altitude);
+    send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude);
     return 0;
 }
 

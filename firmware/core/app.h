@@ -15,6 +15,7 @@
 #include "mavlink_in.h"
 #include "mavlink_out.h"
 #include "record.h"
+#include "tracker.h"
 
 enum app_link { APP_LINK_AUTOPILOT, APP_LINK_GROUND, APP_LINKS };
 
@@ -48,6 +49,7 @@ enum app_pad_field {
 #define APP_FLAG_ALTITUDE_LIDAR 0x40U    // the LiDAR counts in the altitude
 #define APP_FLAG_ALTITUDE_PAD 0x80U      // the pad's size counts in the altitude
 #define APP_FLAG_LIDAR_IMPLAUSIBLE 0x100U
+#define APP_FLAG_BRIDGED 0x200U // not seen in this frame: the track's prediction
 
 // What each element of the ground station's DEBUG_FLOAT_ARRAY "HEALTH" holds,
 // once a second. Counts are since start; of records, those of the newest.
@@ -87,6 +89,7 @@ struct app {
     uint32_t last_frame_number; // 0 = none yet
     uint64_t next_complaint_us[APP_COMPLAINTS];
     struct attitude attitude;
+    struct tracker tracker;
     bool camera_lost;
     bool lidar_worked; // since power-up
     uint32_t min_area_px;
