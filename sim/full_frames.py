@@ -23,6 +23,8 @@ from sim.cosim.build import need
 from sim.frames_result import (
     CORE_OF_STAGE,
     ICARUS,
+    LEAST_IN_ICARUS,
+    LEAST_RENDERED,
     OUTPUT,
     VERILATOR,
     WHOLE,
@@ -179,8 +181,8 @@ def main() -> int:
     """Entry point of `make frames`."""
     parser = ArgumentParser(prog="python -m sim.full_frames", description=__doc__)
     parser.add_argument("--photos", nargs="*", default=[], metavar="FOLDER", help="folders of 1280x720 pictures")
-    parser.add_argument("--rendered", type=int, default=20, help="how many rendered views (default 20)")
-    parser.add_argument("--icarus", type=int, default=3, help="how many frames also go through Icarus (default 3)")
+    parser.add_argument("--rendered", type=int, default=LEAST_RENDERED, help="rendered views (default %(default)s)")
+    parser.add_argument("--icarus", type=int, default=LEAST_IN_ICARUS, help="frames for Icarus (default %(default)s)")
     parser.add_argument("--only", choices=(VERILATOR, ICARUS), help="run one simulator; the other's last result counts")
     options = parser.parse_args()
     if options.rendered < 0:
