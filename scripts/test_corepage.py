@@ -70,13 +70,6 @@ def test_drift_of_a_header_is_seen(before: str, after: str, fault: str) -> None:
     assert found == ([fault] if fault else [])
 
 
-def test_a_gap_that_is_filled_is_seen() -> None:
-    filled = header_of("ccl") + "// Border: none. Rounding: none.\n"
-    assert header_faults("ccl", read_page("ccl"), filled) == [
-        f"ccl: the header has '{word}' now; take it out of HEADER_GAPS" for word in ("Border", "Rounding")
-    ]
-
-
 def test_a_picture_of_something_else_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(corepage, "PICTURES", tmp_path)
     text = read_page("gaussian5x5")

@@ -6,6 +6,9 @@
 // clk. Time is counted in microseconds since reset, CLK_PER_US clocks each.
 // Throughput: one pixel a clk; the bottom borders and the last lines of ccl are flushed during vertical blanking.
 // Latency: docs/cores/landing_core.md; test_landing_core asserts it.
+// Border: that of each core inside. Rounding: twice, in rgb2gray and in gaussian5x5.
+// Overflow: a frame that finds the camera's FIFO full is cut off and counted (FRAMES_OVERFLOW); objects beyond
+// MAX_OBJECTS are counted in the record.
 // Configuration: what the registers hold when the first pixel of a frame leaves video_in counts for all cores and the
 // record of that frame. FRAME_SIZE also counts at the camera, a few clocks earlier: a frame in which it changes is cut
 // off and counted like any malformed one.

@@ -13,8 +13,11 @@
 // Latency     1 cycle for a pixel; 7 cycles from the last pixel of a row of windows to its first beat.
 // Throughput  1 pixel a cycle; 1 window a cycle.
 // Stall       A start of frame, and the last pixel of a row of windows, wait until the row of windows before has been
-//             handed over: at most 7 cycles and one a window, plus what m_stat_axis stalls.
-// Frames      As in docs/design.md. Least frame 1x1.
+//             handed over: at most 6 cycles and one a window, plus what m_stat_axis stalls.
+// Border      Windows at the right and at the bottom are cut by the frame, down to one pixel.
+// Rounding    None.
+// Overflow    None: each row of windows waits for the one before it.
+// Limits      Frames of 1x1 to MAX_WIDTH x MAX_HEIGHT; malformed ones as in docs/design.md.
 
 `default_nettype none
 
