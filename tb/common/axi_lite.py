@@ -25,13 +25,13 @@ async def _check(dut: HierarchyObject, prefix: str, channel: str, payload: tuple
         if str(dut.rst.value) != "0":
             offered = None
             continue
-        now = [str(signal.value) for signal in signals]
         is_valid = str(valid.value)
         assert is_valid in "01", f"{channel}valid is {is_valid}; {where()}"
-        assert offered is None or (is_valid == "1" and now == offered), (
+        now = [str(signal.value) for signal in signals] if is_valid == "1" else None
+        assert offered is None or now == offered, (
             f"{channel} channel changed from {offered} to {now} while stalled; {where()}"
         )
-        assert is_valid == "0" or not four_state() or not any(set(text) - {"0", "1"} for text in now), (
+        assert now is None or not four_state() or not any(set(text) - {"0", "1"} for text in now), (
             f"{channel} channel offers {now}; {where()}"
         )
-        offered = now if is_valid == "1" and str(ready.value) == "0" else None
+        offered = now if str(ready.value) == "0" else None

@@ -8,7 +8,7 @@ import cocotb
 import numpy as np
 from cocotb.clock import Clock
 from cocotb.handle import HierarchyObject
-from cocotb.triggers import ClockCycles, RisingEdge
+from cocotb.triggers import ClockCycles, First, RisingEdge
 from cocotb.types import LogicArray
 from cocotb.utils import get_sim_time
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster
@@ -16,9 +16,10 @@ from cocotbext.axi import AxiLiteBus, AxiLiteMaster
 from golden.chain import Settings, run_chain
 from golden.generated import landing_regs as regs
 from golden.result_writer import record
+from tb.common.axi_lite import check_responses
 from tb.common.axi_memory import AxiMemory
 from tb.common.run import four_state, parameter, where
-from tb.common.stream import CLOCK_NS, StreamMonitor
+from tb.common.stream import CLOCK_NS, StreamMonitor, stalls
 from tb.video_in.tb_video_in import Blanking, Raw
 
 MAX_WIDTH, MAX_HEIGHT = parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720)
@@ -70,6 +71,13 @@ class Bench:
         self.cpu = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "s_axil"), dut.clk, dut.rst)
         self.memory = AxiMemory(dut, "m_axi", dut.clk, dut.rst, Random(self.rng.getrandbits(64)))
         self.memory.on_change = self._note_record
+        check_responses(dut)
+        write, read = self.cpu.write_if, self.cpu.read_if
+        for channel in (write.aw_channel, write.w_channel, write.b_channel, read.ar_channel, read.r_channel):
+            channel.set_pause_generator(stalls(self.rng, 0.2))
+        self.frame_errors = 0
+        """Clocks since the reset in which a core between camera and objects told of a frame that was cut off."""
+        cocotb.start_soon(self._watch_frame_errors())
         self.monitors = {name: StreamMonitor(dut, name, dut.clk, dut.rst) for name in STREAMS}
         self.monitors |= {name: StreamMonitor(dut.chain, name, dut.clk, dut.rst) for name in CHAIN_STREAMS}
 
@@ -147,6 +155,11 @@ class Bench:
         written = [burst.cycle for burst in self.memory.bursts if burst.address == buffer_address]
         return (written[-1] - self.pulse_end - LIDAR_CLOCKS) / CLK_PER_US
 
+    def invalidated(self) -> int:
+        """How many frames result_writer has begun: how often it wrote 0 for a buffer's frame number."""
+        places = [self.base + buffer * regs.RING_STRIDE_BYTES + NUMBER_PLACE for buffer in range(regs.RING_BUFFERS)]
+        return sum(burst.address in places and not any(burst.data) for burst in self.memory.bursts)
+
     async def settle(self) -> None:
         """Wait until the last record is written."""
         await ClockCycles(self.dut.clk, 1500)
@@ -161,6 +174,28 @@ class Bench:
         record = self.record(buffer)
         if offset == NUMBER_PLACE and record.number:
             self.records.append(record)
+
+    async def _watch_frame_errors(self) -> None:
+        """Fail where a core finds more frames cut off than the camera side has told of: cores would disagree."""
+        dut, counts = self.dut, [0] * 7
+        signals = (dut.rst, dut.chain.unused_errors, dut.unused_error)
+        errors = ""
+        while True:
+            if "1" not in errors:
+                await First(*(signal.value_change for signal in signals))
+            await RisingEdge(dut.clk)
+            reset, *values = (str(signal.value) for signal in signals)
+            if reset != "0":
+                counts, self.frame_errors, errors = [0] * 7, 0, ""
+                continue
+            errors = "".join(values)
+            assert not set(errors) - {"0", "1"}, f"frame_error of the cores is {errors}; {where()}"
+            if "1" not in errors:
+                continue
+            counts = [count + int(bit) for count, bit in zip(counts, errors, strict=True)]
+            self.frame_errors += 1
+            cut = int(dut.frames_malformed_reg.value) + int(dut.frames_overflow_reg.value)
+            assert max(counts) <= cut, f"{max(counts)} pulses of a frame_error, {cut} frames cut off; {where()}"
 
     async def check_ring(self, published: list["Expected"], unwritten: int = 0) -> None:
         """Assert that the ring holds the newest of `published`, and that the registers say so."""

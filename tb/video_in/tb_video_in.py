@@ -85,10 +85,12 @@ def lines_of(rng: Random, width: int, height: int) -> list[list[int]]:
     return [[rng.getrandbits(24) for _ in range(width)] for _ in range(height)]
 
 
-def spoil(rng: Random, lines: list[list[int]]) -> list[list[int]]:
-    """Return the lines with one fault: a short or long line, too few or too many lines."""
+FAULTS = ("short", "long", "few", "many")
+
+
+def spoil(rng: Random, lines: list[list[int]], kind: str) -> list[list[int]]:
+    """Return the lines with one of the faults: a short or long line, too few or too many lines."""
     lines = [list(line) for line in lines]
-    kind = rng.choice(["short", "long", "few", "many"])
     index = rng.randrange(len(lines))
     if kind == "short" and len(lines[index]) > 1:
         del lines[index][rng.randrange(1, len(lines[index])) :]

@@ -13,6 +13,7 @@ from tb.common.run import where
 from tb.common.stream import split_frames, stalls
 from tb.video_in.tb_video_in import (
     CLK_NS,
+    FAULTS,
     FIFO_DEPTH,
     MAX_SIZE,
     TIGHT,
@@ -90,7 +91,7 @@ async def malformed_frames(dut: HierarchyObject, attempt: int, stop_clock: bool,
         shape = Blanking(4 * width, 20, 20, 100)
     for _ in range(12):
         lines = lines_of(rng, width, height)
-        raw.frame(spoil(rng, lines) if rng.random() < 0.6 else lines, shape)
+        raw.frame(spoil(rng, lines, rng.choice(FAULTS)) if rng.random() < 0.6 else lines, shape)
     raw.frame(lines_of(rng, width, height), shape)
     await play_and_check(bench, raw, width, height)
 
