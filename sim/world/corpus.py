@@ -20,15 +20,16 @@ from sim.world.disturbances import UNDISTURBED, Disturbances
 from sim.world.drawings import DRAWINGS
 from sim.world.ground import GROUNDS
 from sim.world.look import Look
-from sim.world.pose import Pose, project_pad
+from sim.world.pose import Pose, camera_from_level, project_pad, truth_of
 from sim.world.scene import Scene
-from sim.world.visibility import SHAPES, shapes_of
+from sim.world.visibility import shapes_of
 
 FRAMES_A_SECOND = 60.0
 
 _SHARP_M = (0.3, 2.0)
 _METRIC_M = (0.15, 3.0)
 _TYPICAL_M = (0.24, 1.8)
+_OFF_AXIS_DEG = 42.0
 _BORDER_M = (0.3, 1.2)
 _DESCENT_M = (1.5, 0.1)
 _DESCENT_SWAY_MM = 15.0
@@ -135,16 +136,15 @@ def _in_frame(random: np.random.Generator, camera: Camera, pose: Pose, wanted: C
     return None
 
 
+def _near_axis(pose: Pose) -> bool:
+    """The pad's centre is no farther off the optical axis than on any photograph."""
+    place = camera_from_level(pose) @ (pose.right_m, -pose.forward_m, pose.altitude_m)
+    return bool(place[2] >= math.cos(math.radians(_OFF_AXIS_DEG)) * np.linalg.norm(place))
+
+
 def _wholly(camera: Camera) -> Callable[[Pose], bool]:
-    """The ring's outer edge is inside the frame."""
-    turn = np.linspace(0, 2 * np.pi, 90, endpoint=False)
-    rim = SHAPES["ring"].outer * np.column_stack([np.cos(turn), np.sin(turn)])
-
-    def check(pose: Pose) -> bool:
-        image = project_pad(camera, pose, rim)
-        return bool(((image >= 0) & (image <= (camera.width - 1, camera.height - 1))).all())
-
-    return check
+    """The ring's outer edge is inside the frame, and the pad near the axis."""
+    return lambda pose: _near_axis(pose) and truth_of(camera, pose).visible
 
 
 def _placed(
@@ -231,6 +231,8 @@ def _metric(random: np.random.Generator, index: int, camera: Camera) -> Scene:
     altitude = _log_uniform(random, *_METRIC_M)
 
     def seen(pose: Pose) -> bool:
+        if not _near_axis(pose):
+            return False
         shapes = shapes_of(camera, pose, FLAT, None, None)
         return all(shapes[name].share == 1.0 and shapes[name].area_px >= 40 for name in ("square", "rectangle"))
 

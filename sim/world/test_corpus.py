@@ -17,7 +17,7 @@ from sim.world.drawings import DECOYS, DRAWINGS, drawing
 from sim.world.ground import GROUNDS
 from sim.world.look import CLEAN
 from sim.world.pad import PAD, Sheet, coverage
-from sim.world.pose import Pose, camera_from_level
+from sim.world.pose import Pose, camera_from_level, truth_of
 from sim.world.scene import Scene, SceneTruth, render_scene
 from sim.world.visibility import shapes_of
 
@@ -74,6 +74,16 @@ def test_typical_frames_have_the_measured_distribution() -> None:
     glare = np.mean([scene.disturbances.glare > 0 for scene in scenes])
     assert 0.2 < legs < 0.6
     assert 0.15 < glare < 0.35
+
+
+@pytest.mark.parametrize("name", ["sharp", "typical", "metric"])
+def test_the_pad_is_no_farther_off_axis_than_on_photographs(name: str) -> None:
+    off = []
+    for scene in corpus(name, 100):
+        truth = truth_of(scene.camera, scene.pose)
+        radius = math.hypot(truth.x_px - 640, truth.y_px - 360)
+        off.append(2 * math.degrees(math.atan(radius / (2 * 552))))
+    assert 35 < max(off) <= 42.001
 
 
 def test_at_the_border_the_ring_is_cut_and_the_inner_shapes_are_whole() -> None:
