@@ -96,18 +96,13 @@ def _rows(film: Film, variant: Variant) -> list[Row]:
 
 
 def lines(by_variant: Sequence[tuple[str, Sequence[Row]]]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Head and lines of the table: a line a variant, three columns a group of sets."""
+    """Head and lines of the table: a line a variant, a column a group of sets."""
     groups = list(dict.fromkeys(_group(row.set) for _, rows in by_variant for row in rows))
-    head = ["variant"]
-    for group in groups:
-        head += [f"{group}: found", "false", "centre x / y [px]"]
     table = []
     for name, rows in by_variant:
-        cells = [name]
-        for group in groups:
-            cells += _cells(summarise([row for row in rows if _group(row.set) == group]))
-        table.append(tuple(cells))
-    return tuple(head), table
+        parts = ([row for row in rows if _group(row.set) == group] for group in groups)
+        table.append((name, *(_cell(summarise(part)) for part in parts)))
+    return ("found; false; centre x / y [px]", *groups), table
 
 
 def _group(name: str) -> str:
@@ -115,7 +110,9 @@ def _group(name: str) -> str:
     return name.split(":", maxsplit=1)[0]
 
 
-def _cells(figures: Summary) -> tuple[str, str, str]:
-    found = f"{figures.found} of {figures.required}" if figures.required else "-"
-    error = "-" if figures.mean_x_px is None else f"{figures.mean_x_px:.2f} / {figures.mean_y_px:.2f}"
-    return found, str(figures.false), error
+def _cell(figures: Summary) -> str:
+    parts = [f"{figures.found} of {figures.required}"] if figures.required else []
+    parts.append(f"{figures.false} false")
+    if figures.mean_x_px is not None:
+        parts.append(f"{figures.mean_x_px:.2f} / {figures.mean_y_px:.2f}")
+    return "; ".join(parts)

@@ -25,8 +25,8 @@ from sim.cosim.run import run_cosim
 SHOWINGS = 9
 """How often an independent picture is shown; the last time counts.
 
-The first showing has no thresholds. From the second on the firmware moves MIN_AREA from 100 px towards 30 (few shapes) or
-150 (too many), where it is by the eighth showing; a test sees that it then stays.
+The first showing has no thresholds. From the second on the firmware moves MIN_AREA from 100 px towards 30 (few shapes)
+or 150 (too many), where it is by the eighth showing; a test sees that it then stays.
 """
 FRAME_NS = 50_000_000 / 3
 FIRST_FRAME_NS = 3_800_000

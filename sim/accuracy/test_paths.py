@@ -10,11 +10,12 @@ import pytest
 from firmware.library import make
 from golden.chain import PAPER, Settings, run_chain
 from scripts.demo_decode import Line
+from scripts.demo_results import Pad
 from scripts.errors import UserError
-from sim.accuracy.options import load_variants
+from sim.accuracy.options import lines, load_variants
 from sim.accuracy.paper_rules import find_pad, ring_width_px
 from sim.accuracy.paths import SHOWINGS, Answer, golden, rtl
-from sim.accuracy.rows import Reference
+from sim.accuracy.rows import Reference, Row
 from sim.accuracy.shots import Film, Shot, Unit, develop
 from sim.cosim.build import build_host
 from sim.views import views
@@ -150,3 +151,17 @@ def test_variants_name_options_of_the_firmware_and_registers(tmp_path: Path) -> 
         (tmp_path / "o.toml").write_text(text)
         with pytest.raises(UserError, match=words):
             load_variants(tmp_path / "o.toml")
+
+
+def test_table_of_variants() -> None:
+    def row(set_name: str, pad: Pad | None, reference: Reference) -> Row:
+        return Row(set_name, "a", "-", None, reference, pad, 1.0, 0, 0, 30)
+
+    truth = Reference(True, True, 10.0, 20.0, 0.0)
+    good = row("photos:a", Pad(10.5, 20.25, 0.0, 0.0, 0.0), truth)
+    false = row("negatives", Pad(1.0, 2.0, 3.0, 0.0, 0.0), Reference(False))
+    missed = row("photos:b", None, truth)
+    head, table = lines([("one", [good, missed, false]), ("two", [missed])])
+    assert head[1:] == ("photos", "negatives")
+    assert table[0] == ("one", "1 of 2; 0 false; 0.50 / 0.25", "1 false")
+    assert table[1] == ("two", "0 of 1; 0 false", "0 false")
