@@ -10,6 +10,7 @@ from cocotb.handle import HierarchyObject
 
 from golden.threshold_stats import threshold_stats, window_count
 from tb.common.contract import SentFrame, SizeLimits, sent_frames
+from tb.common.figures import page_figures
 from tb.common.matrix import SCENES, STALLS, VideoCore, check_frames, send_and_check, start
 from tb.common.patterns import random_frame, structured_frames
 from tb.common.run import parameter, where
@@ -28,8 +29,8 @@ FLAT_PLACES: dict[str, Callable[[Random, int, int], bool]] = {
     "first_column": lambda rng, row, column: column == 0,
     "all": lambda rng, row, column: True,
 }
-LATENCY = 1
-FIRST_BEAT_LATENCY = 7
+LATENCY, FIRST_BEAT_LATENCY = page_figures("threshold_stats")
+STALL, STALL_A_WINDOW = page_figures("threshold_stats", "Throughput")[2:4]
 
 
 def factor_of(first_pixel: int) -> int:
@@ -49,6 +50,7 @@ async def begin(dut: HierarchyObject, stall: str) -> tuple[StreamBench, StreamSi
     dut.cfg_factor.value = 0
     dut.cfg_flat_limit.value = 0
     bench = await start(dut, rng, stall)
+    bench.logs.append(stats.taken)
     stats.pause = stalls(rng, STALLS[stall][1])
     set_size, scramble = bench.source.on_beat, Random(rng.getrandbits(64))
 
@@ -200,20 +202,15 @@ async def reset_in_a_frame(dut: HierarchyObject, stall: str) -> None:
         bench.source.send_beats([beat for _ in range(3) for beat in frame_beats(random_frame(rng, 9, 9, 8))])
         await bench.cycles(rng.randint(1, 300))
         await bench.reset(rng.randint(1, 3))
-        bench.sink.taken.clear()
-        stats.taken.clear()
-        bench.errors.count = 0
         beats = [beat for _ in range(2) for beat in frame_beats(random_frame(rng, 9, 9, 8))]
         await send_and_check(bench, CORE, beats)
         await bench.cycles(60)
         check_stats(stats.taken, sent_frames(beats, LIMITS)[0])
-        bench.sink.taken.clear()
-        stats.taken.clear()
 
 
 @cocotb.test()
 async def latency_and_stall(dut: HierarchyObject) -> None:
-    """The figures of the header: 1 cycle, 7 cycles to the first beat, 7 + columns between frames, none in a frame."""
+    """The figures of the page: of a pixel, of the first beat, of the stall between frames; no stall within a frame."""
     bench, stats = await begin(dut, "full_speed")
     width, height = min(2 * SIDE + 1, LIMITS.max_width, 300), min(SIDE, LIMITS.max_height)
     height = min(height, 16)
@@ -227,5 +224,5 @@ async def latency_and_stall(dut: HierarchyObject) -> None:
     first = stats.taken[0].cycle - one[-1].cycle
     assert first == FIRST_BEAT_LATENCY, f"first stat beat after {first} cycles; {where()}"
     for before, after in ((one, two), (two, three)):
-        gap = after[0].cycle - before[-1].cycle
-        assert gap == FIRST_BEAT_LATENCY + columns, f"{gap} cycles between frames with {columns} columns; {where()}"
+        stall = after[0].cycle - before[-1].cycle - 1
+        assert stall == STALL + STALL_A_WINDOW * columns, f"a stall of {stall} cycles with {columns} columns; {where()}"
