@@ -98,6 +98,20 @@ module ccl_pictures #(
       end
     end
 
+  // Within the depth leave, at full speed, the trailer of the picture with most components; else an object that waited.
+  reg waited, paused;
+  always @(posedge clk) begin
+    waited <= !rst && m_axis_tvalid && !m_axis_tready;
+    paused <= !rst && (paused || next != 4'd0 && !s_axis_tvalid);
+  end
+  generate
+    if (STALLS == 0) begin : g_whole
+      always @(posedge clk) if (past && !rst) cover (m_axis_tvalid && m_axis_tlast && sent == 4'd4);
+    end else begin : g_waits
+      always @(posedge clk) if (past && !rst) cover (paused && waited && m_axis_tready && !m_axis_tlast);
+    end
+  endgenerate
+
 endmodule
 
 `default_nettype wire

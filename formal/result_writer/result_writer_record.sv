@@ -5,7 +5,10 @@
 
 module result_writer_record #(
     parameter MAX_OBJECTS = 256,
-    parameter MAX_OUTSTANDING = 8
+    parameter MAX_OUTSTANDING = 8,
+    // 1: only what a planted fault that shows late needs, so that it is found soon: contents stand still, each word of an
+    // object another; objects come and data is taken at once; one reset.
+    parameter STILL = 0
 ) (
     input wire clk,
     input wire rst,
@@ -54,10 +57,17 @@ module result_writer_record #(
   wire frame_done;
   wire axi_error;
 
+  wire [31:0] base_in = STILL == 0 ? ring_base : 32'h1000_0000;
+  wire [511:0] data_in = STILL == 0 ? s_axis_tdata : {64'd8, 64'd7, 64'd6, 64'd5, 64'd4, 64'd3, 64'd2, 64'd1};
+
   result_writer #(
       .MAX_OBJECTS    (MAX_OBJECTS),
       .MAX_OUTSTANDING(MAX_OUTSTANDING)
-  ) dut (.*);
+  ) dut (
+      .*,
+      .ring_base   (base_in),
+      .s_axis_tdata(data_in)
+  );
 
   power_up start (.*);
 
@@ -94,8 +104,11 @@ module result_writer_record #(
   wire take = s_axis_tvalid && s_axis_tready;
   wire no = m_axi_bvalid && m_axi_bresp[1];
 
+  reg known = 1'b0;
+
   // Frames are counted from 1.
   always @* assume (frame_number != 32'd0);
+  always @* if (STILL != 0 && known) assume (!rst && s_axis_tvalid && m_axi_wready && frame_number == 32'd1);
 
   // How far the record has come; _now counts what begins in this clock.
   localparam [1:0] NONE = 2'd0;
@@ -112,10 +125,10 @@ module result_writer_record #(
   reg [1:0] buffer;
   wire [1:0] buffer_now = buffer + {1'b0, frame_done};
   reg [31:0] base, number;
-  (* anyconst *) reg [2:0] watched;  // one word of the objects, any
+  (* anyconst *) reg [2:0] any_word;
+  wire [2:0] watched = STILL == 0 ? any_word : 3'd0;  // one word of the objects
   reg [63:0] word;  // of the object taken last
 
-  reg known = 1'b0;
   always @(posedge clk) begin
     known         <= 1'b1;
     // Also in the clock in which the frame number of the next one is set to 0.
@@ -124,10 +137,10 @@ module result_writer_record #(
     failed_before <= failed_now;
     objects       <= objects_now;
     buffer        <= buffer_now;
-    if (take) word <= s_axis_tdata[{watched, 6'd0}+:64];
+    if (take) word <= data_in[{watched, 6'd0}+:64];
     if (take && s_axis_tlast) number <= frame_number;
     if (take && s_axis_tuser) begin
-      base    <= {ring_base[31:12], 12'd0} + {15'd0, buffer_now, 15'd0};
+      base    <= {base_in[31:12], 12'd0} + {15'd0, buffer_now, 15'd0};
       objects <= 9'd0;
     end
     if (rst) {phase, failed, failed_before, buffer} <= 6'd0;
@@ -154,7 +167,14 @@ module result_writer_record #(
         assert (written_frame_number == number && ring_head_valid && ring_head_index == {6'd0, buffer});
       end
       if (axi_error) assert (failed && !frame_done);
+      // The end is reached: with an object, after a frame that failed, after one that was cut off.
+      cover (frame_done && objects == 9'd1);
+      cover (frame_done && failed_once);
+      cover (frame_done && frames_unwritten == 32'd1 && !failed_once);
     end
+
+  reg failed_once;
+  always @(posedge clk) failed_once <= !rst && (failed_once || axi_error);
 
   // For induction.
   localparam [2:0] IDLE = 3'd0;
