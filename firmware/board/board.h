@@ -14,12 +14,4 @@
 #define BOARD_FRAME_WIDTH_PX 1280U
 #define BOARD_FRAME_HEIGHT_PX 720U
 
-// 0.5 of the way from the darkest to the brightest pixel. The hardware's reset
-// value is 0.25, the paper's; 0.5 finds washed-out pads as well.
-#define BOARD_THRESHOLD_FACTOR 128U
-
-// A window of 128x128 with less contrast shows paper or a black shape alone, and
-// is judged by its neighbour's threshold. The noise of a camera stays below it.
-#define BOARD_FLAT_LIMIT 16U
-
 #endif

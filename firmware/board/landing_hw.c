@@ -64,7 +64,7 @@ const char *landing_hw_fault(void)
     return NULL;
 }
 
-void landing_hw_start(uint32_t min_area_px)
+void landing_hw_start(uint32_t min_area_px, uint32_t threshold)
 {
     frame_queue_init(&pending);
     for (uint32_t i = 0; i < LANDING_RING_BUFFERS; i++) {
@@ -74,9 +74,7 @@ void landing_hw_start(uint32_t min_area_px)
     set(LANDING_REG_RING_BASE_OFFSET, (uint32_t)(uintptr_t)ring);
     set(LANDING_REG_FRAME_SIZE_OFFSET, (BOARD_FRAME_WIDTH_PX << LANDING_REG_FRAME_SIZE_WIDTH_SHIFT) |
                                            (BOARD_FRAME_HEIGHT_PX << LANDING_REG_FRAME_SIZE_HEIGHT_SHIFT));
-    set(LANDING_REG_THRESHOLD_OFFSET, (BOARD_THRESHOLD_FACTOR << LANDING_REG_THRESHOLD_FACTOR_SHIFT) |
-                                          (BOARD_FLAT_LIMIT << LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT));
-    landing_hw_set_min_area(min_area_px);
+    landing_hw_adapt(min_area_px, threshold);
     set(LANDING_REG_LIDAR_CTRL_OFFSET, LANDING_REG_LIDAR_CTRL_ENABLE_MASK);
     set(LANDING_REG_IRQ_STATUS_OFFSET, ALL_INTERRUPTS);
     set(LANDING_REG_IRQ_ENABLE_OFFSET, LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK);
@@ -86,9 +84,10 @@ void landing_hw_start(uint32_t min_area_px)
     set(LANDING_REG_CTRL_OFFSET, LANDING_REG_CTRL_DARK_IS_ONE_MASK | LANDING_REG_CTRL_ENABLE_MASK);
 }
 
-void landing_hw_set_min_area(uint32_t pixels)
+void landing_hw_adapt(uint32_t min_area_px, uint32_t threshold)
 {
-    set(LANDING_REG_MIN_AREA_OFFSET, pixels);
+    set(LANDING_REG_THRESHOLD_OFFSET, threshold);
+    set(LANDING_REG_MIN_AREA_OFFSET, min_area_px);
 }
 
 uint64_t landing_hw_time_us(void)

@@ -15,9 +15,10 @@
 const char *landing_hw_fault(void);
 
 // Configures the hardware, then enables it.
-void landing_hw_start(uint32_t min_area_px);
+void landing_hw_start(uint32_t min_area_px, uint32_t threshold);
 
-void landing_hw_set_min_area(uint32_t pixels);
+// MIN_AREA and THRESHOLD, from the next frame on.
+void landing_hw_adapt(uint32_t min_area_px, uint32_t threshold);
 
 // Microseconds since reset of the PL. Only from the main loop: reading the low
 // half latches the high one.

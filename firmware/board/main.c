@@ -62,7 +62,7 @@ int main(void)
     const bool has_hardware = fault == NULL;
     app_init(&app, &port, has_hardware ? landing_hw_time_us() : timer_now_us(), fault);
     if (has_hardware) {
-        landing_hw_start(app_min_area_px(&app));
+        landing_hw_start(app_min_area_px(&app), app_threshold_register(&app));
     }
     uint64_t next_complaints_us = 0;
     for (;;) {
@@ -72,7 +72,7 @@ int main(void)
             const int size = landing_hw_take_frame(&record);
             if (size > 0) {
                 (void)app_on_record(&app, &record, (size_t)size, now_us);
-                landing_hw_set_min_area(app_min_area_px(&app));
+                landing_hw_adapt(app_min_area_px(&app), app_threshold_register(&app));
                 // A record takes long enough to make TIMESYNC's answer late.
                 now_us = landing_hw_time_us();
             } else {

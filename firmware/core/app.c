@@ -18,6 +18,9 @@
 #define MIN_AREA_START_PX 100U
 #define MIN_AREA_LEAST_PX 30U
 #define MIN_AREA_GREATEST_PX 150U
+// A window of 128x128 with less contrast shows paper or a black shape alone, and
+// is judged by its neighbour's threshold. The noise of a camera stays below it.
+#define FLAT_LIMIT 16U
 #define OBJECTS_FEW 215U
 #define RECORD_FLAGS                                                                                                   \
     (LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK | LANDING_HEADER_FLAGS_THRESHOLDS_STALE_MASK |                       \
@@ -131,6 +134,12 @@ uint32_t app_min_area_px(const struct app *app)
     return app->min_area_px;
 }
 
+uint32_t app_threshold_register(const struct app *app)
+{
+    return factor_search_factor(&app->factor_search) << LANDING_REG_THRESHOLD_FACTOR_SHIFT |
+           FLAT_LIMIT << LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT;
+}
+
 void app_on_lost_record(struct app *app)
 {
     app->health[APP_HEALTH_RECORDS_REJECTED]++;
@@ -174,6 +183,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
             : seen ? TRACK_MEASURED
                    : TRACK_NONE;
     const bool found = track != TRACK_NONE;
+
+    if ((app->detect_options & DETECT_FACTORS) != 0U) {
+        factor_search_update(&app->factor_search, seen, record->header.threshold_factor);
+    }
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
     if (found) {

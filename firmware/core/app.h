@@ -11,6 +11,7 @@
 #include "attitude.h"
 #include "camera.h"
 #include "detect.h"
+#include "factor_search.h"
 #include "fusion.h"
 #include "mavlink_in.h"
 #include "mavlink_out.h"
@@ -93,6 +94,7 @@ struct app {
     bool camera_lost;
     bool lidar_worked; // since power-up
     uint32_t min_area_px;
+    struct factor_search factor_search;
     uint32_t health[APP_HEALTH_FIELDS];
     uint32_t detect_options; // DETECT_*
     struct detect_scratch scratch;
@@ -117,6 +119,9 @@ void app_on_complaints(struct app *app, const struct app_complaints *complaints,
 // What MIN_AREA should be from now on. Rises while records overflow and falls
 // while they are far from full, so that grass does not push the pad out.
 uint32_t app_min_area_px(const struct app *app);
+
+// What THRESHOLD should hold from now on.
+uint32_t app_threshold_register(const struct app *app);
 
 // Bytes that arrived on a link.
 void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us);

@@ -19,7 +19,8 @@ enum { DETECT_E_NO_PAD = -1 };
 #define DETECT_PERSPECTIVE 8U // the centre from the fitted view, not from the plain line between square and rectangle
 #define DETECT_FAR 16U        // square and rectangle alone, where the ring is too thin to be seen and the LiDAR agrees
 #define DETECT_TRACK 32U      // refuse what cannot be the same pad, bridge a frame or two
-#define DETECT_ALL 63U
+#define DETECT_FACTORS 64U    // try other threshold factors while no pad is seen
+#define DETECT_ALL 127U
 
 // A shape of the record and where it touches the frame.
 struct candidate {

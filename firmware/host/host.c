@@ -40,6 +40,11 @@ uint32_t touchdown_min_area(void)
     return app_min_area_px(&app);
 }
 
+uint32_t touchdown_threshold(void)
+{
+    return app_threshold_register(&app);
+}
+
 void touchdown_on_bytes(int link, const uint8_t *bytes, size_t size, uint64_t now_us)
 {
     app_on_bytes(&app, link == TOUCHDOWN_AUTOPILOT ? APP_LINK_AUTOPILOT : APP_LINK_GROUND, bytes, size, now_us);

@@ -23,6 +23,9 @@ int touchdown_on_record(const void *bytes, size_t size, uint64_t now_us);
 // What the firmware would now write into MIN_AREA, in pixels.
 uint32_t touchdown_min_area(void);
 
+// What THRESHOLD should hold from now on.
+uint32_t touchdown_threshold(void);
+
 // DETECT_* of firmware/core/detect.h; touchdown_init sets all.
 void touchdown_set_options(uint32_t options);
 

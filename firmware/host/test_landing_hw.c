@@ -59,10 +59,24 @@ static void complete_frame(uint32_t number, uint32_t index)
     interrupt();
 }
 
+// What the application asks for, whatever it is.
+#define THRESHOLD 0x00100080U
+
+static void test_adaptation(void)
+{
+    test_case("the application's choices reach their registers, at the start and later");
+    landing_hw_start(100U, THRESHOLD);
+    CHECK(registers[LANDING_REG_MIN_AREA_OFFSET / 4U] == 100U);
+    CHECK(registers[LANDING_REG_THRESHOLD_OFFSET / 4U] == THRESHOLD);
+    landing_hw_adapt(77U, 0x00200060U);
+    CHECK(registers[LANDING_REG_MIN_AREA_OFFSET / 4U] == 77U);
+    CHECK(registers[LANDING_REG_THRESHOLD_OFFSET / 4U] == 0x00200060U);
+}
+
 static void test_frames(void)
 {
     test_case("each frame is read from its buffer, late or not");
-    landing_hw_start(100U);
+    landing_hw_start(100U, THRESHOLD);
     CHECK(!landing_hw_frame_pending());
     complete_frame(7U, 0U);
     complete_frame(8U, 1U);
@@ -86,7 +100,7 @@ static void test_complaints(void)
     uint32_t *status = &registers[LANDING_REG_IRQ_STATUS_OFFSET / 4U];
 
     test_case("only what is handled is acknowledged");
-    landing_hw_start(100U);
+    landing_hw_start(100U, THRESHOLD);
     *status = LANDING_REG_IRQ_STATUS_AXI_ERROR_MASK | LANDING_REG_IRQ_STATUS_FRAME_OVERFLOW_MASK;
     registers[LANDING_REG_FRAMES_UNWRITTEN_OFFSET / 4U] = 3U;
     complete_frame(1U, 0U);
@@ -101,6 +115,7 @@ static void test_complaints(void)
 
 void test_landing_hw(void)
 {
+    test_adaptation();
     test_frames();
     test_complaints();
 }

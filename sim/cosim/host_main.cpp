@@ -70,9 +70,7 @@ private:
     void configure() {
         model_.write(LANDING_REG_RING_BASE_OFFSET, RamBoard::RING_ADDRESS);
         model_.write(LANDING_REG_FRAME_SIZE_OFFSET, frames_.height() << 16 | frames_.width());
-        model_.write(LANDING_REG_THRESHOLD_OFFSET, BOARD_FLAT_LIMIT << LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT |
-                                                       BOARD_THRESHOLD_FACTOR << LANDING_REG_THRESHOLD_FACTOR_SHIFT);
-        model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
+        adapt();
         model_.write(LANDING_REG_LIDAR_CTRL_OFFSET, LANDING_REG_LIDAR_CTRL_ENABLE_MASK);
         model_.write(LANDING_REG_IRQ_ENABLE_OFFSET, LANDING_REG_IRQ_ENABLE_FRAME_DONE_MASK);
         model_.write(LANDING_REG_CTRL_OFFSET, LANDING_REG_CTRL_DARK_IS_ONE_MASK | LANDING_REG_CTRL_ENABLE_MASK);
@@ -85,6 +83,11 @@ private:
         board_.read_memory(RamBoard::RING_ADDRESS + head * LANDING_RING_STRIDE_BYTES,
                            reinterpret_cast<uint8_t*>(&record), sizeof record);
         touchdown_on_record(&record, sizeof record, now_us());
+        adapt();
+    }
+
+    void adapt() {
+        model_.write(LANDING_REG_THRESHOLD_OFFSET, touchdown_threshold());
         model_.write(LANDING_REG_MIN_AREA_OFFSET, touchdown_min_area());
     }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "factor_search.h"
+
+// docs/accuracy.md: which factor finds what.
+static const uint32_t factors[] = {128U, 96U, 72U, 160U};
+#define FACTORS (sizeof factors / sizeof factors[0])
+
+// The usual factor gets more time, as most frames without a pad show none.
+#define MISSES_USUAL 18U
+#define MISSES_OTHER 6U
+
+uint32_t factor_search_factor(const struct factor_search *search)
+{
+    return factors[search->place];
+}
+
+void factor_search_update(struct factor_search *search, bool found, uint32_t factor)
+{
+    // A change shows a few frames later; frames of the factor before say nothing of this one.
+    if (factor != factors[search->place]) {
+        return;
+    }
+    if (found) {
+        search->misses = 0U;
+        return;
+    }
+    search->misses++;
+    if (search->misses >= (search->place == 0U ? MISSES_USUAL : MISSES_OTHER)) {
+        search->place = (search->place + 1U) % FACTORS;
+        search->misses = 0U;
+    }
+}

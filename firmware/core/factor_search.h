@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which threshold factor the hardware should use. One half suits most light; a
+// shadow across the pad needs less, a reflection on it more. While no pad is
+// seen, one factor after the other is tried; what shows the pad is kept.
+#ifndef TOUCHDOWN_FACTOR_SEARCH_H
+#define TOUCHDOWN_FACTOR_SEARCH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct factor_search {
+    uint32_t place;  // in the list of factors; 0 is the usual one
+    uint32_t misses; // frames without a pad since the last one, or since this factor came
+};
+
+// Q1.8, as in the THRESHOLD register.
+uint32_t factor_search_factor(const struct factor_search *search);
+
+// One frame, taken with thresholds of `factor`.
+void factor_search_update(struct factor_search *search, bool found, uint32_t factor);
+
+#endif
