@@ -20,7 +20,7 @@ module frame_facts (
     input wire last_pixel,
     input wire pop,
 
-    input wire [63:0] time_us,
+    input wire [31:0] time_us,
     input wire [31:0] frame_number,
     input wire [63:0] frame_start_us,
     input wire [15:0] width,
@@ -72,7 +72,7 @@ module frame_facts (
         if (last_pixel) complete_number_reg <= number_reg;
     end
 
-    wire [31:0] scan_time_us = time_us[31:0] - start_us_reg[31:0];
+    wire [31:0] scan_time_us = time_us - start_us_reg[31:0];
 
     reg [ENTRY_BITS-1:0] queue[0:DEPTH-1];
     reg [DEPTH_BITS-1:0] write_reg, read_reg;

@@ -363,7 +363,7 @@ module landing_core #(
         .frame_started(frame_started),
         .last_pixel(last_pixel),
         .pop(objects_tvalid && objects_tready && objects_tlast),
-        .time_us(time_us_reg),
+        .time_us(time_us_reg[31:0]),
         .frame_number(camera_frame_number),
         .frame_start_us(camera_frame_start_us),
         .width(width_reg),
