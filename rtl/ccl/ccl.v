@@ -6,8 +6,10 @@
 // Stream out     object stream of docs/design.md, in the raster order of the components' last pixels.
 // Throughput     1 pixel a clock, blanking not needed, for every image. From the last pixel of a frame to the first of the next
 //                10 clocks and one for each run of set pixels in the last line: at most 10 + (MAX_WIDTH + 1) / 2.
-// Latency        an object comes 8 clocks after the pixel right below and one to the right of its last pixel (in raster order);
-//                9 if the line ends there; in the last line with the flush. See docs/cores/ccl.md.
+// Latency        an object comes 8 clocks after the pixel below and to the right of its last pixel (in raster order); 9 after the
+//                pixel below if the line ends there; in the last line with the flush. See docs/cores/ccl.md.
+// Border         pixels outside the frame are not set.
+// Rounding       none: all sums are integers.
 // Backpressure   nothing is lost: a stalled output stalls the input. 25 components are queued before that.
 // Overflow       none: memories hold the worst case of MAX_WIDTH, sums the worst case of a frame.
 // Sampling       cfg_* are sampled with the start of each frame.

@@ -14,6 +14,7 @@ from cocotb.handle import HierarchyObject
 
 from golden.ccl import ccl
 from golden.generated.landing_regs import OBJECT_DTYPE
+from tb.ccl.tb_ccl import CLOSE_CLOCKS, LAST_LINE_CLOCKS, REPORT_AT_EDGE_CLOCKS, REPORT_CLOCKS
 from tb.common.contract import SentFrame, SizeLimits, sent_frames
 from tb.common.matrix import SCENES, STALLS, VideoCore, named, start
 from tb.common.patterns import structured_frames
@@ -24,11 +25,6 @@ MAX_WIDTH = parameter("MAX_WIDTH", 1280)
 MAX_HEIGHT = parameter("MAX_HEIGHT", 720)
 MOMENTS = parameter("MOMENTS", 2)
 CORE = VideoCore(golden=lambda image: image, bits_in=1, reach=0, limits=SizeLimits(1, 1, MAX_WIDTH, MAX_HEIGHT))
-
-# docs/cores/ccl.md, clocks.
-REPORT_CLOCKS = 8  # from the pixel right below and one to the right to the object
-REPORT_AT_EDGE_CLOCKS = 9  # the same if the line ends there
-CLOSE_CLOCKS = 10  # from the last pixel to the first object of the last line, or to the trailer if it has none
 
 
 class Config:
@@ -86,27 +82,41 @@ def check_objects(beats: list[Taken], expected: np.ndarray, name: str) -> None:
             )
 
 
-def is_start_of(beats: list[Taken], expected: np.ndarray) -> bool:
-    """Return whether the beats are the first of the expected objects, and no trailer."""
-    got = [beat.data.to_bytes(64, "little") for beat in beats]
-    return not beats[-1].last and got == [item.tobytes() for item in expected[: len(beats)]]
+def due_objects(frame: SentFrame, min_area: int, zeros: int) -> np.ndarray:
+    """Golden objects of a frame; of one that is cut off those that its pixels show to be whole."""
+    if frame.complete:
+        return expected_objects(frame.image(), min_area, zeros)
+    # Whole is what stays as it is whatever else comes; what reaches the last line comes with the end of the frame.
+    missing = (np.arange(frame.width * frame.height) >= len(frame.pixels)).reshape(frame.height, frame.width)
+    without, with_all = (np.where(missing, value, frame.image()) for value in (zeros, 1 - zeros))
+    others = {item.tobytes() for item in expected_objects(with_all, min_area, zeros)}
+    objects = expected_objects(without, min_area, zeros)
+    due = [item.tobytes() in others and item["box_max_y"] < frame.height - 1 for item in objects]
+    return objects[np.array(due, bool)]
 
 
 def check_frames(taken: list[Taken], sent: list[SentFrame], configs: Iterator[tuple[int, int]]) -> None:
-    """Assert all objects and a trailer for each complete frame; of a cut one, at most its first objects."""
+    """Assert all objects and a trailer for each complete frame; of a cut one those that were due, and no others."""
     groups = split_frames(taken)
     for index, (frame, (min_area, zeros)) in enumerate(zip(sent, configs, strict=False)):
         name = f"frame {index} of {len(sent)} ({frame.width}x{frame.height}, min_area {min_area}, zeros {zeros})"
-        expected = expected_objects(frame.image(), min_area, zeros)
+        expected = due_objects(frame, min_area, zeros)
+        least = expected.size
+        if not frame.complete:
+            # One at the end of a line is a clock late; the next frame, if it comes at once, may forget it.
+            whole_lines = len(frame.pixels) % frame.width == 0
+            least -= bool(whole_lines and least and expected[-1]["box_max_x"] == frame.width - 1)
+            fits = groups and not groups[0][-1].last and object_of(groups[0][0]).tobytes() == expected[:1].tobytes()
+            if not least and not fits:
+                continue
+        assert groups, f"{name}: nothing came; {where()}"
+        objects = groups.pop(0)
         if frame.complete:
-            assert groups, f"{name}: nothing came; {where()}"
-            *objects, trailer = groups.pop(0)
+            *objects, trailer = objects
             assert trailer.last, f"{name}: {len(objects) + 1} beats without a trailer, expected {expected}; {where()}"
             assert trailer.data == 0, f"{name}: the trailer is not zero; {where()}"
-            check_objects(objects, expected, name)
-            assert len(objects) == expected.size, f"{name}: {len(objects)} of {expected.size} objects; {where()}"
-        elif groups and is_start_of(groups[0], expected):
-            groups.pop(0)
+        check_objects(objects, expected, name)
+        assert least <= len(objects), f"{name}: {len(objects)} of {expected.size} objects; {where()}"
     assert not groups, f"{len(groups)} frames came that nobody sent; {where()}"
 
 
@@ -123,6 +133,23 @@ async def send_and_check(bench: StreamBench, beats: list[Beat], config: Config, 
     check_frames(
         bench.sink.taken, sent, iter(config.of_frame) if config.of_frame else forever((config.min_area, config.zeros))
     )
+
+
+async def reset_and_check(bench: StreamBench, beats: list[Beat], config: Config) -> None:
+    """Reset, send, check objects and pulses: what comes is that of these beats from the first clock on."""
+    dut = bench.dut
+    # They count from the next reset on.
+    started = PulseCounter(dut.frame_started, dut.clk, dut.rst)
+    last = PulseCounter(dut.last_pixel, dut.clk, dut.rst)
+    await bench.reset(bench.rng.randint(1, 3))
+    frames, errors = sent_frames(beats, CORE.limits)
+    await send_and_check(bench, beats, config, frames)
+    for name, got, expected in (
+        ("frame_error", bench.errors.count, errors),
+        ("frame_started", started.count, len(frames)),
+        ("last_pixel", last.count, sum(frame.complete for frame in frames)),
+    ):
+        assert got == expected, f"{name} pulsed {got} times, expected {expected}; {where()}"
 
 
 def random_image(rng: Random, width: int, height: int) -> np.ndarray:
@@ -142,19 +169,7 @@ async def frame_contract(dut: HierarchyObject, scene: str, stall: str) -> None:
     rng = seeded()
     bench = await start(dut, rng, stall)
     config = Config(bench, rng, vary=False)
-    started = PulseCounter(dut.frame_started, dut.clk, dut.rst)
-    last = PulseCounter(dut.last_pixel, dut.clk, dut.rst)
-    await bench.reset()
-    beats = SCENES[scene](rng, CORE)
-    frames, errors = sent_frames(beats, CORE.limits)
-    await send_and_check(bench, beats, config, frames)
-    complete = sum(frame.complete for frame in frames)
-    for name, got, expected in (
-        ("frame_error", bench.errors.count, errors),
-        ("frame_started", started.count, len(frames)),
-        ("last_pixel", last.count, complete),
-    ):
-        assert got == expected, f"{name} pulsed {got} times, expected {expected}; {where()}"
+    await reset_and_check(bench, SCENES[scene](rng, CORE), config)
 
 
 @cocotb.test()
@@ -188,11 +203,8 @@ async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
     for _ in range(8):
         bench.source.send_beats([b for _ in range(4) for b in frame_beats(random_image(rng, MAX_WIDTH, MAX_HEIGHT))])
         await bench.cycles(rng.randint(1, 3 * MAX_WIDTH * MAX_HEIGHT))
-        await bench.reset(rng.randint(1, 3))
-        bench.sink.taken.clear()
         beats = [beat for _ in range(2) for beat in frame_beats(random_image(rng, MAX_WIDTH, MAX_HEIGHT))]
-        await send_and_check(bench, beats, config, sent_frames(beats, CORE.limits)[0])
-        bench.sink.taken.clear()
+        await reset_and_check(bench, beats, config)
 
 
 @cocotb.test()
@@ -267,7 +279,7 @@ def report_clock(place: tuple[int, int], accepted: list[int], image: np.ndarray)
     """Return the clock in which the object with that last pixel is due."""
     (x, y), (height, width) = place, image.shape
     if y == height - 1:
-        return accepted[image.size - 1] + CLOSE_CLOCKS + run_ends(image[y]).index(x)
+        return accepted[image.size - 1] + LAST_LINE_CLOCKS + run_ends(image[y]).index(x)
     if x == width - 1:
         return accepted[(y + 2) * width - 1] + REPORT_AT_EDGE_CLOCKS
     return accepted[(y + 1) * width + x + 1] + REPORT_CLOCKS

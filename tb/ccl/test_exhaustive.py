@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from scripts.signoff import combine, leave_part
+from tb.ccl import tb_ccl
 from tb.common.cores import ROOT, Core, load_core
 from tb.common.lock import locked
 from tb.common.runner import OUTPUT, check_simulator
@@ -33,10 +34,14 @@ def build(width: int, height: int, core: Core | None = None, output: Path = OUTP
     """Return the bench for these MAX_WIDTH and MAX_HEIGHT; `core` is ccl, with other sources if wanted."""
     check_simulator("verilator")
     core = core or load_core("ccl")
-    folder = output / "ccl/exhaustive" / f"{width}x{height}"
+    names = ("REPORT_CLOCKS", "REPORT_AT_EDGE_CLOCKS", "LAST_LINE_CLOCKS", "CLOSE_CLOCKS")
+    clocks = {name: getattr(tb_ccl, name) for name in names}
+    # make does not see a change of flags: each build has its folder.
+    folder = output / "ccl/exhaustive" / "-".join(map(str, [f"{width}x{height}", *clocks.values()]))
     command = ["verilator", "--cc", "--exe", "--build", "-O3", "--top-module", core.toplevel]
     command += [f"-GMAX_WIDTH={width}", f"-GMAX_HEIGHT={height}", f"-I{ROOT / 'rtl/generated'}"]
     command += ["-CFLAGS", f"-O2 -std=c++17 -Wall -Wextra -Werror -I{ROOT / 'tb/ccl/exhaustive'}"]
+    command += ["-CFLAGS", " ".join(f"-D{name}={value}" for name, value in clocks.items())]
     command += ["--Mdir", str(folder), "-o", "ccl_exhaustive"]
     command += [*map(str, core.sources), str(ROOT / "tb/ccl/exhaustive/main.cpp")]
     environment = {"OBJCACHE": "ccache", **os.environ}
@@ -69,6 +74,20 @@ def small() -> Path:
 def large() -> Path:
     """Bench for images of up to 1280x720."""
     return build(1280, 720)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--stal", 40, "all", 2, 2], "the options are --seed, --idle and --stall"),
+        (["--idle", 100, "all", 2, 2], "give 0 to 99 per cent"),
+        (["--seed", "x", "all", 2, 2], "give whole numbers"),
+        (["all", 2], "give all WIDTH HEIGHT [FIRST LAST], random COUNT LEAST GREATEST or structured WIDTH HEIGHT"),
+    ],
+)
+def test_a_wrong_command_is_refused(small: Path, arguments: list[object], sentence: str) -> None:
+    result = subprocess.run([small, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stderr) == (2, f"touchdown: {sentence}.\n")
 
 
 @pytest.mark.parametrize(("idle", "stall"), GAPS)

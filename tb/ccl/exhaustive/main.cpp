@@ -3,7 +3,7 @@
 //
 //   ccl_exhaustive all WIDTH HEIGHT [FIRST LAST]     every image (or those coded FIRST to LAST - 1), back to back
 //   ccl_exhaustive random COUNT LEAST GREATEST       random sizes LEAST to GREATEST, all densities, some frames cut off
-//   ccl_exhaustive structured WIDTH HEIGHT           hard images, then random ones of 5 to 95 %
+//   ccl_exhaustive structured WIDTH HEIGHT           hard images, then random ones of 1 to 99 %
 // Options, first: --seed N, --idle PERCENT, --stall PERCENT.
 
 #include <cstdio>
@@ -57,7 +57,7 @@ static void send_structured(Bench &bench, int width, int height) {
         frame.name += ", zeros";
         frames.push_back(frame);
     }
-    for (int percent : {5, 20, 35, 41, 50, 65, 80, 95}) {
+    for (int percent : {1, 2, 5, 10, 20, 35, 41, 50, 65, 80, 90, 95, 98, 99}) {
         Frame frame;
         frame.image = random_image(bench.random(), width, height, percent);
         frame.name = std::to_string(percent) + " %";
@@ -69,20 +69,42 @@ static void send_structured(Bench &bench, int width, int height) {
     }
 }
 
+[[noreturn]] static void refuse(const char *what) {
+    std::fprintf(stderr, "touchdown: %s.\n", what);
+    std::exit(2);
+}
+
+static uint64_t number(const char *text) {
+    char *end;
+    const uint64_t value = std::strtoull(text, &end, 10);
+    if (*text < '0' || *text > '9' || *end != '\0') refuse("give whole numbers");
+    return value;
+}
+
+static unsigned percentage(uint64_t value) {
+    if (value > 99) refuse("give 0 to 99 per cent");
+    return static_cast<unsigned>(value);
+}
+
 int main(int argc, char **argv) {
     uint64_t seed = 1;
     unsigned idle = 0, stall = 0;
     int next = 1;
     for (; next + 1 < argc && std::strncmp(argv[next], "--", 2) == 0; next += 2) {
-        const uint64_t value = std::strtoull(argv[next + 1], nullptr, 10);
+        const uint64_t value = number(argv[next + 1]);
         const std::string option = argv[next];
-        if (option == "--seed") seed = value;
-        if (option == "--idle") idle = static_cast<unsigned>(value);
-        if (option == "--stall") stall = static_cast<unsigned>(value);
+        if (option == "--seed")
+            seed = value;
+        else if (option == "--idle")
+            idle = percentage(value);
+        else if (option == "--stall")
+            stall = percentage(value);
+        else
+            refuse("the options are --seed, --idle and --stall");
     }
     std::vector<uint64_t> numbers;
     const std::string mode = next < argc ? argv[next++] : "";
-    for (; next < argc; next++) numbers.push_back(std::strtoull(argv[next], nullptr, 10));
+    for (; next < argc; next++) numbers.push_back(number(argv[next]));
 
     Bench bench(seed);
     bench.idle_percent = idle;
@@ -97,8 +119,7 @@ int main(int argc, char **argv) {
     } else if (mode == "structured" && numbers.size() == 2) {
         send_structured(bench, static_cast<int>(numbers[0]), static_cast<int>(numbers[1]));
     } else {
-        std::fprintf(stderr, "touchdown: give all WIDTH HEIGHT, random COUNT LEAST GREATEST or structured WIDTH HEIGHT.\n");
-        return 2;
+        refuse("give all WIDTH HEIGHT [FIRST LAST], random COUNT LEAST GREATEST or structured WIDTH HEIGHT");
     }
     bench.drain();
     std::printf("ok: %llu frames, %llu objects, %llu clocks, longest stall %llu\n",
