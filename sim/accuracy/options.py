@@ -4,8 +4,10 @@
 import re
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
+
+import numpy as np
 
 from golden.chain import Settings
 from scripts.demo_results import Pad
@@ -63,21 +65,27 @@ def load_variants(path: Path = OPTIONS, header: Path = DETECT) -> list[Variant]:
 
 
 def compare(unit: Unit, variants: Sequence[Variant]) -> list[list[Row]]:
-    """Rows of a unit, by variant. The unit is drawn once."""
+    """Rows of a unit, by variant. It is drawn once, and labelled once for all variants with the same registers."""
     film = develop(unit)
-    return [_rows(film, variant) for variant in variants]
+    objects = {settings: list(shown_objects(film, settings)) for settings in {_chain(one) for one in variants}}
+    return [_rows(film, variant, objects[_chain(variant)]) for variant in variants]
 
 
-def _rows(film: Film, variant: Variant) -> list[Row]:
+def _chain(variant: Variant) -> Settings:
+    """The registers that objects of every size depend on."""
+    return replace(variant.settings, min_area=0)
+
+
+def _rows(film: Film, variant: Variant, objects: Sequence[np.ndarray]) -> list[Row]:
     if not variant.paper:
-        return rows_of(film, golden(film, variant.settings, variant.options).seen)
+        return rows_of(film, golden(film, variant.settings, variant.options, objects).seen)
     # The last showings count, one a shot.
-    shown = list(shown_objects(film, variant.settings))[-len(film.images) :]
+    shown = objects[-len(film.images) :]
     rows = []
     for shot, reference, every in zip(film.unit.shots, film.references, shown, strict=True):
         # No limit to their number: that is the hardware's, not the paper's.
-        objects = every[every["area"] >= variant.settings.min_area]
-        found = find_pad(objects, shot.lidar_m)
+        kept = every[every["area"] >= variant.settings.min_area]
+        found = find_pad(kept, shot.lidar_m)
         rows.append(
             Row(
                 set=film.unit.set,
@@ -87,7 +95,7 @@ def _rows(film: Film, variant: Variant) -> list[Row]:
                 reference=reference,
                 pad=Pad(**found._asdict()) if found else None,
                 altitude_m=shot.lidar_m,
-                objects=len(objects),
+                objects=len(kept),
                 dropped=0,
                 min_area_px=variant.settings.min_area,
             )

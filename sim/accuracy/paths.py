@@ -4,7 +4,7 @@
 Both end in the same record, decoded by the same code, so that they can be compared message by message.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -83,7 +83,12 @@ def shown_objects(film: Film, settings: Settings) -> Iterator[np.ndarray]:
         before = stages.stats
 
 
-def golden(film: Film, settings: Settings | None = None, options: int | None = None) -> Answer:
+def golden(
+    film: Film,
+    settings: Settings | None = None,
+    options: int | None = None,
+    objects: Iterable[np.ndarray] | None = None,
+) -> Answer:
     """The golden models and the firmware's C in this process.
 
     What the firmware writes to MIN_AREA after one record counts from the next frame on: the record is there 0.1 ms
@@ -93,6 +98,7 @@ def golden(film: Film, settings: Settings | None = None, options: int | None = N
         film: What is shown.
         settings: Registers other than the firmware's; MIN_AREA is the firmware's all the same.
         options: What the firmware's detection may do, a mask; default is what the firmware starts with.
+        objects: What `shown_objects` gives for these, where it is known already.
     """
     settings = settings or Settings()
     firmware = Firmware()
@@ -100,7 +106,8 @@ def golden(film: Film, settings: Settings | None = None, options: int | None = N
         firmware.set_options(options)
     sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
     frames = []
-    for index, (shown, objects) in enumerate(zip(_shown(film), shown_objects(film, settings), strict=True)):
+    objects = shown_objects(film, settings) if objects is None else objects
+    for index, (shown, every) in enumerate(zip(_shown(film), objects, strict=True)):
         shot = film.unit.shots[shown]
         first_ns = FIRST_FRAME_NS + round(index * FRAME_NS)
         last_ns = first_ns + SCAN_NS
@@ -116,7 +123,7 @@ def golden(film: Film, settings: Settings | None = None, options: int | None = N
             "min_area": firmware.min_area_px,
             "thresholds_missing": int(index == 0),
         }
-        record = result_writer.record(values, objects[objects["area"] >= firmware.min_area_px])
+        record = result_writer.record(values, every[every["area"] >= firmware.min_area_px])
         error = firmware.on_record(record, (last_ns + RECORD_NS) // 1000)
         if error != 0:
             raise RuntimeError(f"the firmware refuses the record of {shot.name} with {error}")

@@ -12,7 +12,8 @@ from golden.chain import PAPER, Settings, run_chain
 from scripts.demo_decode import Line
 from scripts.demo_results import Pad
 from scripts.errors import UserError
-from sim.accuracy.options import lines, load_variants
+from sim.accuracy.measure import measure_golden
+from sim.accuracy.options import compare, lines, load_variants
 from sim.accuracy.paper_rules import find_pad, ring_width_px
 from sim.accuracy.paths import SHOWINGS, Answer, golden, rtl
 from sim.accuracy.rows import Reference, Row
@@ -165,3 +166,14 @@ def test_table_of_variants() -> None:
     assert head[1:] == ("photos", "negatives")
     assert table[0] == ("one", "1 of 2; 0 false; 0.50 / 0.25", "1 false")
     assert table[1] == ("two", "0 of 1; 0 false", "0 false")
+
+
+def test_variants_of_one_unit_are_what_each_gives_alone() -> None:
+    unit = Unit("s", (shot("a", Pose(1.0, 0.2, -0.1, 30.0), Look(noise_sigma=0.5), 3),))
+    variants = load_variants()
+    by_name = {variant.name: rows for variant, rows in zip(variants, compare(unit, variants), strict=True)}
+    assert by_name["production"] == measure_golden(unit)
+    (paper,) = next(rows for variant, rows in zip(variants, by_name.values(), strict=True) if variant.paper)
+    assert paper.found
+    assert paper.pad.x_px == int(paper.pad.x_px)
+    assert paper.pad != by_name["production"][0].pad
