@@ -50,6 +50,8 @@
 #define DOUBT_HEIGHT 1.5 // for a LiDAR reading that contradicts the size
 // With only one of square and rectangle there is little to contradict a view.
 #define CLOSE_DOUBT_MAX 1.0
+// Ring and what is inside as one: few numbers, so they have to be right.
+#define FUSED_DOUBT_MAX 0.8
 // From afar the opening takes the ring. What is left must be nearly ideal and of the right size.
 #define FAR_DOUBT_MAX 1.0
 #define FAR_RING_WIDTH_PX 6.5
@@ -119,6 +121,7 @@ static void collect(const struct landing_record *record, const struct camera *ca
     }
 }
 
+// Of one shape. Several in one have no place of their own.
 static int index_of(unsigned kind)
 {
     return kind == PAD_SQUARE ? 0 : kind == PAD_RECTANGLE ? 1 : kind == PAD_SMALL_RING ? 2 : 3;
@@ -133,8 +136,10 @@ static void add_sighting(struct reading *reading, unsigned kinds, const struct s
     sighting->clipped = clipped;
     sighting->pieces = pieces;
     sighting->seen = *seen;
-    reading->place[index_of(kinds)] = evidence->count;
-    reading->kinds |= kinds;
+    if (kinds != PAD_INNER) {
+        reading->place[index_of(kinds)] = evidence->count;
+        reading->kinds |= kinds;
+    }
     evidence->count++;
 }
 
@@ -219,6 +224,43 @@ static double square_radius(const struct context *context, const struct pad_plan
     return x * x + y * y + xx * shape->cov_xx + 2.0 * xy * shape->cov_xy + yy * shape->cov_yy;
 }
 
+// Several shapes taken as one, summed up near where they are expected.
+struct merged {
+    struct shape origin; // only its place is used
+    double area;
+    double x;
+    double y;
+    double xx;
+    double xy;
+    double yy;
+};
+
+static void merge(struct merged *merged, const struct shape *shape)
+{
+    const struct vector offset = shape_offset(&merged->origin, shape);
+
+    merged->area += shape->area_px;
+    merged->x += shape->area_px * offset.x;
+    merged->y += shape->area_px * offset.y;
+    merged->xx += shape->area_px * (shape->cov_xx + offset.x * offset.x);
+    merged->xy += shape->area_px * (shape->cov_xy + offset.x * offset.y);
+    merged->yy += shape->area_px * (shape->cov_yy + offset.y * offset.y);
+}
+
+static struct shape shape_of(const struct merged *merged)
+{
+    const double x = merged->x / merged->area;
+    const double y = merged->y / merged->area;
+    const struct shape shape = {.area_px = merged->area,
+                                .x_px = merged->origin.x_px + x,
+                                .y_px = merged->origin.y_px + y,
+                                .cov_xx = merged->xx / merged->area - x * x,
+                                .cov_xy = merged->xy / merged->area - x * y,
+                                .cov_yy = merged->yy / merged->area - y * y};
+
+    return shape;
+}
+
 static bool is_sighted(const struct reading *reading, const struct shape *shape)
 {
     for (int i = 0; i < reading->evidence.count; i++) {
@@ -234,17 +276,13 @@ static void match_ring(const struct context *context, const struct pad_plane *pl
                        struct reading *reading)
 {
     struct shape expected;
-    double area = 0.0;
-    double x = 0.0;
-    double y = 0.0;
-    double xx = 0.0;
-    double xy = 0.0;
-    double yy = 0.0;
+    struct merged ring = {.area = 0.0};
     int pieces = 0;
     bool clipped = false;
     const double inside = pad_plane_moments(plane, context->camera, PAD_RING, true, &expected);
 
     reading->ring_inside = inside;
+    ring.origin = expected;
     if (!(inside > 0.05)) {
         return;
     }
@@ -266,34 +304,41 @@ static void match_ring(const struct context *context, const struct pad_plane *pl
             !(square < PIECE_RADIUS_MAX_MM * PIECE_RADIUS_MAX_MM)) {
             continue;
         }
-        const double dx = shape->x_px - expected.x_px;
-        const double dy = shape->y_px - expected.y_px;
-        area += shape->area_px;
-        x += shape->area_px * dx;
-        y += shape->area_px * dy;
-        xx += shape->area_px * (shape->cov_xx + dx * dx);
-        xy += shape->area_px * (shape->cov_xy + dx * dy);
-        yy += shape->area_px * (shape->cov_yy + dy * dy);
+        merge(&ring, shape);
         clipped = clipped || candidate->clipped;
         pieces++;
     }
-    reading->ring_share = area / area_px;
+    reading->ring_share = ring.area / area_px;
     if (reading->ring_share < RING_SHARE_WHOLE || reading->ring_share > 1.0 / RING_SHARE_WHOLE ||
         ((context->options & DETECT_RING_PIECES) == 0U && (pieces != 1 || clipped))) {
         return;
     }
-    x /= area;
-    y /= area;
-    const struct shape seen = {.area_px = area,
-                               .x_px = expected.x_px + x,
-                               .y_px = expected.y_px + y,
-                               .cov_xx = xx / area - x * x,
-                               .cov_xy = xy / area - x * y,
-                               .cov_yy = yy / area - y * y};
+    const struct shape seen = shape_of(&ring);
     add_sighting(reading, PAD_RING, &seen, clipped || inside < MATCH_INSIDE_WHOLE, pieces > 1);
 }
 
-static int read_record(const struct context *context, const struct pad_view *view, struct reading *reading)
+// All that lies inside the ring, as one: the inner shapes have run together.
+static void match_fused(const struct context *context, const struct pad_plane *plane, struct reading *reading)
+{
+    struct merged inner = {.area = 0.0};
+    struct shape expected;
+
+    pad_plane_moments(plane, context->camera, PAD_INNER, false, &expected);
+    inner.origin = expected;
+    for (int i = 0; i < context->scratch->count; i++) {
+        const struct candidate *candidate = &context->scratch->candidates[i];
+        const double square = square_radius(context, plane, &candidate->shape);
+        if (square >= 0.0 && square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !candidate->clipped) {
+            merge(&inner, &candidate->shape);
+        }
+    }
+    if (inner.area > expected.area_px / MATCH_AREA_RATIO && inner.area < expected.area_px * MATCH_AREA_RATIO) {
+        const struct shape seen = shape_of(&inner);
+        add_sighting(reading, PAD_INNER, &seen, false, false);
+    }
+}
+
+static int read_record(const struct context *context, const struct pad_view *view, bool fused, struct reading *reading)
 {
     struct pad_plane plane;
     const double edge_px = view->value[PAD_EDGE_PX];
@@ -302,9 +347,13 @@ static int read_record(const struct context *context, const struct pad_view *vie
     if (pad_plane_of(view, context->camera, &plane) != 0) {
         return DETECT_E_NO_PAD;
     }
-    match(context, &plane, edge_px, PAD_SQUARE, reading);
-    match(context, &plane, edge_px, PAD_RECTANGLE, reading);
-    match(context, &plane, edge_px, PAD_SMALL_RING, reading);
+    if (fused) {
+        match_fused(context, &plane, reading);
+    } else {
+        match(context, &plane, edge_px, PAD_SQUARE, reading);
+        match(context, &plane, edge_px, PAD_RECTANGLE, reading);
+        match(context, &plane, edge_px, PAD_SMALL_RING, reading);
+    }
     match_ring(context, &plane, edge_px, reading);
     return 0;
 }
@@ -355,12 +404,16 @@ static double doubt_of(const struct context *context, const struct reading *read
         reading->evidence.sightings[reading->place[2]].seen.area_px >= NO_RING_SMALL_RING_AREA_MIN_PX;
     const bool ring = reading->ring_share >= RING_SHARE_MIN && reading->ring_share <= RING_SHARE_MAX;
     const bool pair = has(reading, PAD_SQUARE | PAD_RECTANGLE);
+    const bool fused = reading->evidence.count == 2 && reading->evidence.sightings[0].kinds == PAD_INNER;
 
     if (fabs(view->value[PAD_EDGE_PX]) > EDGE_MAX_PX || tilt > TILT_MAX || worst > WORST_MAX) {
         return -1.0;
     }
     const double doubt = misfit + DOUBT_CLUTTER * reading->clutter + DOUBT_MISSING * reading->missing +
                          (contradicts_lidar(context, view) ? DOUBT_HEIGHT : 0.0);
+    if (fused) {
+        return reading->place[3] >= 0 && doubt <= FUSED_DOUBT_MAX ? doubt : -1.0;
+    }
     // Two of three that do not depend on each other, one of them the pair or half of it.
     if (pair && (ring || small_ring)) {
         return doubt +
@@ -495,12 +548,12 @@ static bool mirror(const struct context *context, struct pad_view *view)
     return true;
 }
 
-static int fit(const struct context *context, struct pad_view *view, struct reading *reading, double *misfit,
-               double *worst)
+static int fit(const struct context *context, bool fused, struct pad_view *view, struct reading *reading,
+               double *misfit, double *worst)
 {
     // The first fit brings all shapes into reach; the second uses them.
     for (int round = 0; round < 2; round++) {
-        if (read_record(context, view, reading) != 0 || reading->evidence.count < 2 ||
+        if (read_record(context, view, fused, reading) != 0 || reading->evidence.count < 2 ||
             pad_fit(&reading->evidence, context->camera, &context->hint->tilt, view, misfit, worst) != 0) {
             return DETECT_E_NO_PAD;
         }
@@ -508,20 +561,20 @@ static int fit(const struct context *context, struct pad_view *view, struct read
     return 0;
 }
 
-static int try_view(const struct context *context, const struct pad_view *start, struct pad_estimate *pad)
+static int try_view(const struct context *context, const struct hypothesis *hypothesis, struct pad_estimate *pad)
 {
     struct reading reading;
     double worst;
 
-    pad->view = *start;
-    if (fit(context, &pad->view, &reading, &pad->misfit, &worst) != 0) {
+    pad->view = hypothesis->view;
+    if (fit(context, hypothesis->fused, &pad->view, &reading, &pad->misfit, &worst) != 0) {
         return DETECT_E_NO_PAD;
     }
     pad->doubt = doubt_of(context, &reading, &pad->view, pad->misfit, worst);
     if (pad->misfit > MIRROR_MISFIT && reading.evidence.count >= 3) {
         struct pad_estimate other = {.view = pad->view};
         struct reading mirrored;
-        if (mirror(context, &other.view) && fit(context, &other.view, &mirrored, &other.misfit, &worst) == 0) {
+        if (mirror(context, &other.view) && fit(context, hypothesis->fused, &other.view, &mirrored, &other.misfit, &worst) == 0) {
             other.doubt = doubt_of(context, &mirrored, &other.view, other.misfit, worst);
             if (other.doubt >= 0.0 && (pad->doubt < 0.0 || other.doubt < pad->doubt)) {
                 *pad = other;
@@ -541,7 +594,7 @@ static int try_all(const struct context *context, const struct hypotheses *hypot
 
     for (int i = 0; i < hypotheses->count; i++) {
         struct pad_estimate tried;
-        if (try_view(context, &hypotheses->list[i].view, &tried) != 0) {
+        if (try_view(context, &hypotheses->list[i], &tried) != 0) {
             continue;
         }
         if (result != 0 || tried.doubt < pad->doubt) {
@@ -566,6 +619,13 @@ int detect_pad(const struct landing_record *record, const struct camera *camera,
     if ((options & DETECT_CLOSE) != 0U) {
         hypotheses.count = 0;
         hypotheses_from_small_rings(scratch, camera, &hypotheses);
+        if (try_all(&context, &hypotheses, pad) == 0) {
+            return 0;
+        }
+    }
+    if ((options & DETECT_FUSED) != 0U) {
+        hypotheses.count = 0;
+        hypotheses_from_rings(scratch, camera, &hypotheses);
         if (try_all(&context, &hypotheses, pad) == 0) {
             return 0;
         }
