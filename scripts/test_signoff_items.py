@@ -18,7 +18,7 @@ EXHAUSTIVE_ITEMS = {
     "ccl": ("tb/ccl/test_exhaustive.py::test_every_",),
     "median5x5": (f"{EVERY_INPUT}small_image[median5x5-", f"{EVERY_INPUT}neighbourhood_of_the_median"),
     "rgb2gray": (f"{EVERY_INPUT}colour",),
-    "threshold_stats": (f"{EVERY_INPUT}factor_and_spread",),
+    "threshold_stats": (f"{EVERY_INPUT}factor_and_spread", f"{EVERY_INPUT}flat_limit_and_spread"),
 }
 """How the names of the items begin that leave one part each; of the other cores each small image does."""
 
