@@ -70,6 +70,11 @@ class Firmware:
         """Hand over bytes that arrived on a link."""
         self._library.touchdown_on_bytes(link, data, ctypes.c_size_t(len(data)), ctypes.c_uint64(now_us))
 
+    def attitude(self, roll_rad: float, pitch_rad: float, now_us: int = 0) -> None:
+        """Hand over an ATTITUDE of the autopilot: right side down and nose up are positive."""
+        message = mavlink.MAVLink_attitude_message(now_us // 1000 % 2**32, roll_rad, pitch_rad, 0.0, 0.0, 0.0, 0.0)
+        self.on_bytes(AUTOPILOT, message.pack(mavlink.MAVLink(None, srcSystem=1, srcComponent=1)), now_us)
+
     def tick(self, now_us: int, lidar_mm: int | None = 1000, age_us: int = 0) -> None:
         """Let time pass. `lidar_mm` None: the LiDAR has no valid reading."""
         self._library.touchdown_tick(
@@ -84,6 +89,11 @@ class Firmware:
     def min_area_px(self) -> int:
         """What the firmware would now write into MIN_AREA."""
         return self._library.touchdown_min_area()
+
+    @property
+    def threshold(self) -> int:
+        """What the firmware would now write into THRESHOLD: factor and flat limit."""
+        return self._library.touchdown_threshold()
 
     def take(self, link: int) -> list[mavlink.MAVLink_message]:
         """Messages sent on a link since the last call."""

@@ -11,6 +11,7 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from firmware.library import AUTOPILOT, BAUD, GROUND, Firmware, make
 from golden import result_writer
+from golden.chain import Settings
 from golden.generated.landing_regs import OBJECT_DTYPE
 from sim.world.camera import Camera
 from sim.world.pad import coverage
@@ -128,6 +129,20 @@ def test_smaller_frame_is_the_same_camera(firmware: Firmware) -> None:
     target = only(firmware.take(AUTOPILOT), "LANDING_TARGET")
     assert target.angle_x == pytest.approx(math.atan(0.2), abs=3e-3)
     assert target.angle_y == pytest.approx(-math.atan(0.1), abs=3e-3)
+
+
+def test_attitude_of_the_autopilot_counts(firmware: Firmware) -> None:
+    """It says how the pad must lie: a pad that fits without is believed with the true one, and refused with a wrong."""
+    pose = Pose(0.6, right_m=0.1, pad_yaw_deg=30, roll_deg=12, pitch_deg=-8)
+    roll, pitch = math.radians(pose.roll_deg), math.radians(pose.pitch_deg)
+    for number, (told, found) in enumerate((((roll, pitch), 1), ((-roll, -pitch), 0)), start=1):
+        firmware.attitude(*told)
+        assert firmware.on_record(record_of(pose, frame_number=number)) == 0
+        assert only(firmware.take(GROUND), "DEBUG_FLOAT_ARRAY").data[0] == found
+
+
+def test_threshold_starts_as_the_golden_chain_has_it(firmware: Firmware) -> None:
+    assert firmware.threshold == Settings().threshold_register
 
 
 def test_no_pad_no_landing_target(firmware: Firmware) -> None:

@@ -15,10 +15,13 @@ void test_near(double got, double expected, double tolerance, const char *file, 
 void test_case(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 void test_app(void);
+void test_app_track(void);
+void test_attitude(void);
 void test_byte_ring(void);
 void test_camera(void);
 void test_detect(void);
 void test_detect_not(void);
+void test_factor_search(void);
 void test_frame_queue(void);
 void test_fusion(void);
 void test_hypothesis(void);
@@ -28,6 +31,7 @@ void test_pad_view(void);
 void test_record(void);
 void test_record_torn(void);
 void test_shapes(void);
+void test_tracker(void);
 void test_uart(void);
 void test_uart_baud(void);
 

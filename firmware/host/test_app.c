@@ -47,8 +47,9 @@ static void test_min_area(void)
     start();
     scene_clear(&record);
     const uint32_t first = app_min_area_px(&app);
+    CHECK(first == 100U);
     give(10U);
-    CHECK(app_min_area_px(&app) > first);
+    CHECK(app_min_area_px(&app) == 125U);
     record.header.frame_number++;
     record.header.min_area = 1U; // a frame from before the change
     const uint32_t second = app_min_area_px(&app);
@@ -62,6 +63,30 @@ static void test_min_area(void)
         give(0U);
     }
     CHECK(app_min_area_px(&app) == 30U);
+    give(1U);
+    CHECK(app_min_area_px(&app) == 37U);
+}
+
+static bool all(int x, int y)
+{
+    (void)x;
+    (void)y;
+    return true;
+}
+
+static void test_min_area_rests(void)
+{
+    test_case("a record that is nearly full leaves the minimum area as it is");
+    start();
+    scene_clear(&record);
+    for (uint16_t i = 0; i < 215U; i++) {
+        scene_paint_pixels(&record, (uint16_t)(4U * i), 0, 2, 2, all);
+    }
+    give(0U);
+    CHECK(app_min_area_px(&app) == 100U);
+    record.header.object_count--;
+    give(0U);
+    CHECK(app_min_area_px(&app) == 80U);
 }
 
 static void test_late_tick(void)
@@ -175,6 +200,7 @@ void test_app(void)
     test_full_wire();
     test_no_thresholds_yet();
     test_min_area();
+    test_min_area_rests();
     test_late_tick();
     test_rejected();
     test_frames_go_forward();

@@ -131,6 +131,26 @@ static void test_far_pairs(void)
     CHECK(found.count == 0);
 }
 
+static void test_height_orders_pairs(void)
+{
+    const struct scene scene = {.height_m = 1.0, .heading_deg = 20.0};
+
+    test_case("a LiDAR that agrees costs nothing, one that contradicts 0.3 at most");
+    scene_clear(&record);
+    scene_paint_pad(&record, &scene);
+    collect();
+    from_pairs(0.0, DETECT_ALL);
+    const double alone = found.list[0].error;
+    from_pairs(1.0, DETECT_ALL);
+    CHECK(is_near(&found.list[0], &scene));
+    NEAR(found.list[0].error, alone, 0.05);
+    from_pairs(1.2, DETECT_ALL);
+    CHECK(found.list[0].error > alone + 0.02 && found.list[0].error < alone + 0.1);
+    from_pairs(5.0, DETECT_ALL);
+    CHECK(is_near(&found.list[0], &scene));
+    NEAR(found.list[0].error, alone + 0.3, 1e-12);
+}
+
 static void test_only_the_best_stay(void)
 {
     test_case("more pads than places in the list: the best stay");
@@ -206,6 +226,7 @@ void test_hypothesis(void)
     test_pairs();
     test_witness_of_pairs();
     test_far_pairs();
+    test_height_orders_pairs();
     test_only_the_best_stay();
     test_small_rings();
     test_rings();

@@ -40,10 +40,13 @@ void test_near(double got, double expected, double tolerance, const char *file, 
 int main(void)
 {
     test_app();
+    test_app_track();
+    test_attitude();
     test_byte_ring();
     test_camera();
     test_detect();
     test_detect_not();
+    test_factor_search();
     test_frame_queue();
     test_fusion();
     test_hypothesis();
@@ -53,6 +56,7 @@ int main(void)
     test_record();
     test_record_torn();
     test_shapes();
+    test_tracker();
     test_uart();
     test_uart_baud();
     (void)printf("unit_tests: %d checks, %d failures\n", checks, failures);

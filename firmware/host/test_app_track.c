@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a row of frames makes of single detections, and what the firmware knows
+// beforehand: tracker, factor search and attitude as the two links show them.
+#include <math.h>
+#include <string.h>
+
+#include <common/mavlink.h>
+
+#include "app.h"
+#include "test.h"
+#include "test_scene.h"
+
+#define FRAME_US 16667U
+#define CONFIRMED 6
+#define RADIANS_PER_DEGREE 0.017453292519943295
+
+static const struct scene near_scene = {.height_m = 0.6, .right_m = 0.1, .heading_deg = 70.0};
+static const struct scene jump_scene = {.height_m = 0.6, .right_m = -0.2, .heading_deg = 70.0};
+
+static struct app app;
+static struct landing_record with_pad;
+static struct landing_record elsewhere;
+static struct landing_record empty;
+static uint32_t frame_number;
+static uint64_t now_us;
+
+// What the last record brought.
+static int targets;
+static mavlink_landing_target_t target;
+static int arrays;
+static float array[58];
+
+static bool take(void *context, enum app_link link, const uint8_t *bytes, size_t size)
+{
+    static mavlink_message_t assembling;
+    static mavlink_status_t assembling_status;
+    mavlink_message_t message;
+    mavlink_status_t status;
+
+    (void)context;
+    for (size_t i = 0; i < size; i++) {
+        if (mavlink_frame_char_buffer(&assembling, &assembling_status, bytes[i], &message, &status) !=
+            MAVLINK_FRAMING_OK) {
+            continue;
+        }
+        if (message.msgid == MAVLINK_MSG_ID_LANDING_TARGET) {
+            CHECK(link == APP_LINK_AUTOPILOT);
+            targets++;
+            mavlink_msg_landing_target_decode(&message, &target);
+        } else if (message.msgid == MAVLINK_MSG_ID_DEBUG_FLOAT_ARRAY) {
+            CHECK(link == APP_LINK_GROUND);
+            arrays++;
+            mavlink_msg_debug_float_array_get_data(&message, array);
+        }
+    }
+    return true;
+}
+
+static void start(void)
+{
+    const struct app_port port = {.write = take, .context = NULL};
+
+    frame_number = 0U;
+    now_us = 1000000U;
+    app_init(&app, &port, now_us, NULL);
+}
+
+// The next frame shows this, taken with the factor that is in force.
+static void show(struct landing_record *record)
+{
+    now_us += FRAME_US;
+    record->header.frame_number = ++frame_number;
+    record->header.start_time_us = now_us;
+    record->header.threshold_factor = app_threshold_register(&app) & LANDING_REG_THRESHOLD_FACTOR_MASK;
+    targets = 0;
+    arrays = 0;
+    CHECK(app_on_record(&app, record, sizeof *record, now_us) == 0);
+    CHECK(arrays == 1);
+}
+
+static bool bridged(void)
+{
+    return ((uint32_t)array[APP_PAD_FLAGS] & APP_FLAG_BRIDGED) != 0U;
+}
+
+static void check_measured(const struct scene *scene)
+{
+    CHECK(targets == 1 && array[APP_PAD_FOUND] > 0.0F && !bridged());
+    NEAR((double)array[APP_PAD_RIGHT_M], scene->right_m, 0.005);
+    CHECK(((uint32_t)array[APP_PAD_FLAGS] & APP_FLAG_RING) != 0U);
+}
+
+static void check_bridged(const struct scene *scene)
+{
+    CHECK(targets == 1 && array[APP_PAD_FOUND] > 0.0F && bridged());
+    NEAR((double)array[APP_PAD_RIGHT_M], scene->right_m, 0.005);
+    NEAR((double)target.angle_x, atan(scene->right_m / scene->height_m), 0.01);
+    CHECK(target.time_usec == now_us);
+    // Nothing of it was seen.
+    CHECK(((uint32_t)array[APP_PAD_FLAGS] & (APP_FLAG_RING | APP_FLAG_SMALL_RING)) == 0U);
+}
+
+static void check_nothing(void)
+{
+    CHECK(targets == 0 && !bridged());
+    for (int i = APP_PAD_FOUND; i < APP_PAD_FIELDS; i++) {
+        CHECK(i == APP_PAD_FRAME_NUMBER || i == APP_PAD_OBJECT_COUNT || fabsf(array[i]) <= 0.0F);
+    }
+}
+
+static void follow(int frames)
+{
+    start();
+    for (int i = 0; i < frames; i++) {
+        show(&with_pad);
+        check_measured(&near_scene);
+    }
+}
+
+static void test_bridges(void)
+{
+    test_case("no frame is bridged before the track is confirmed");
+    follow(CONFIRMED - 1);
+    show(&empty);
+    check_nothing();
+    test_case("two frames are bridged, the third is not; none of them counts as found");
+    follow(CONFIRMED);
+    for (int i = 0; i < 2; i++) {
+        show(&empty);
+        check_bridged(&near_scene);
+    }
+    for (int i = 0; i < 20; i++) {
+        show(&empty);
+        check_nothing();
+    }
+    CHECK(app.health[APP_HEALTH_PADS] == (uint32_t)CONFIRMED);
+    CHECK(app.health[APP_HEALTH_RECORDS] == (uint32_t)CONFIRMED + 22U);
+}
+
+static void test_refuses(void)
+{
+    test_case("a jump is refused, and believed in the third frame");
+    follow(CONFIRMED);
+    show(&elsewhere);
+    check_bridged(&near_scene);
+    show(&elsewhere);
+    check_bridged(&near_scene);
+    show(&elsewhere);
+    check_measured(&jump_scene);
+    test_case("without the tracker each frame stands alone");
+    follow(CONFIRMED);
+    app.detect_options = DETECT_ALL & ~DETECT_TRACK;
+    show(&elsewhere);
+    check_measured(&jump_scene);
+    show(&empty);
+    check_nothing();
+}
+
+static uint32_t factor(void)
+{
+    return (app_threshold_register(&app) & LANDING_REG_THRESHOLD_FACTOR_MASK) >> LANDING_REG_THRESHOLD_FACTOR_SHIFT;
+}
+
+static void test_factors(void)
+{
+    test_case("frames without a pad walk through the factors; the one that shows it stays");
+    follow(CONFIRMED);
+    for (int i = 0; i < 18; i++) {
+        CHECK(factor() == 128U);
+        show(&empty); // bridged frames show no pad either
+    }
+    CHECK(factor() == 96U);
+    for (int i = 0; i < 20; i++) {
+        show(&with_pad);
+    }
+    CHECK(factor() == 96U);
+    CHECK((app_threshold_register(&app) & LANDING_REG_THRESHOLD_FLAT_LIMIT_MASK) >>
+              LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT ==
+          16U);
+    test_case("the search can be left out");
+    start();
+    app.detect_options = DETECT_ALL & ~DETECT_FACTORS;
+    for (int i = 0; i < 100; i++) {
+        show(&empty);
+    }
+    CHECK(factor() == 128U);
+}
+
+static void tell_attitude(enum app_link link, double roll_deg, double pitch_deg)
+{
+    uint8_t bytes[MAVLINK_MAX_PACKET_LEN];
+    mavlink_message_t message;
+
+    mavlink_msg_attitude_pack(1, 1, &message, 0U, (float)(roll_deg * RADIANS_PER_DEGREE),
+                              (float)(pitch_deg * RADIANS_PER_DEGREE), 0.5F, 0.0F, 0.0F, 0.0F);
+    app_on_bytes(&app, link, bytes, mavlink_msg_to_send_buffer(bytes, &message), now_us);
+}
+
+// Doubt of a pad that lies level, seen `later_us` after an attitude that says otherwise.
+static double doubt_after(enum app_link link, uint64_t later_us)
+{
+    start();
+    tell_attitude(link, 3.0, -3.0);
+    now_us += later_us - FRAME_US;
+    show(&with_pad);
+    return (double)array[APP_PAD_ERROR];
+}
+
+static void test_attitude_of_the_autopilot(void)
+{
+    start();
+    show(&with_pad);
+    const double alone = (double)array[APP_PAD_ERROR];
+
+    test_case("an attitude that contradicts the pad makes it doubtful");
+    CHECK(doubt_after(APP_LINK_AUTOPILOT, FRAME_US) > alone + 0.1);
+    test_case("one from the ground's link does not count");
+    NEAR(doubt_after(APP_LINK_GROUND, FRAME_US), alone, 0.0);
+    test_case("a stale one does not count");
+    CHECK(doubt_after(APP_LINK_AUTOPILOT, 250000U) > alone + 0.1);
+    NEAR(doubt_after(APP_LINK_AUTOPILOT, 250001U), alone, 0.0);
+    test_case("one that is no attitude does not count");
+    start();
+    tell_attitude(APP_LINK_AUTOPILOT, (double)NAN, 0.0);
+    show(&with_pad);
+    NEAR((double)array[APP_PAD_ERROR], alone, 0.0);
+}
+
+void test_app_track(void)
+{
+    scene_clear(&with_pad);
+    scene_paint_pad(&with_pad, &near_scene);
+    scene_clear(&elsewhere);
+    scene_paint_pad(&elsewhere, &jump_scene);
+    scene_clear(&empty);
+    test_bridges();
+    test_refuses();
+    test_factors();
+    test_attitude_of_the_autopilot();
+}
