@@ -3,10 +3,14 @@
 
 #include <math.h>
 
-#define STEPS 8
+#define STEPS 16
 #define RESIDUALS_A_SIGHTING 6
 #define RESIDUALS (RESIDUALS_A_SIGHTING * PAD_FIT_SIGHTINGS)
 #define CONVERGED_PX 1e-3
+#define GAIN_MIN 1e-3
+// What is this bad by now is no pad.
+#define HOPELESS_STEPS 4
+#define HOPELESS_COST 700.0
 
 // How well each thing can be known. Centroids of solid shapes: to a fraction of
 // a pixel, and paper is curled by some thousandths of its size. A wide ring
@@ -114,25 +118,38 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     add(terms, (seen->cov_yy - yy) / (2.0 * spread), spread_sigma);
 }
 
-static int residuals_of(const struct pad_evidence *evidence, const struct camera *camera, const struct pad_view *view,
-                        struct terms *terms)
+// What a view makes us expect of each sighting. The edges' shift plays no part in it.
+struct expectation {
+    struct shape shapes[PAD_FIT_SIGHTINGS];
+    double inside[PAD_FIT_SIGHTINGS];
+};
+
+static int expect(const struct pad_evidence *evidence, const struct camera *camera, const struct pad_view *view,
+                  struct expectation *expectation)
 {
     struct pad_plane plane;
 
     if (pad_plane_of(view, camera, &plane) != 0) {
         return PAD_FIT_E_LOST;
     }
-    terms->count = 0;
     for (int i = 0; i < evidence->count; i++) {
         const struct sighting *sighting = &evidence->sightings[i];
-        struct shape expected;
-        const double inside = pad_plane_moments(&plane, camera, sighting->kinds, sighting->clipped, &expected);
-        if (!(inside > 0.02) || !(expected.area_px > 1.0)) {
+        struct shape *shape = &expectation->shapes[i];
+        expectation->inside[i] = pad_plane_moments(&plane, camera, sighting->kinds, sighting->clipped, shape);
+        if (!(expectation->inside[i] > 0.02) || !(shape->area_px > 1.0)) {
             return PAD_FIT_E_LOST;
         }
-        compare(terms, sighting, &expected, inside, view->value[PAD_EDGE_PX]);
     }
     return 0;
+}
+
+static void residuals_of(const struct pad_evidence *evidence, const struct expectation *expectation, double edge_px,
+                         struct terms *terms)
+{
+    terms->count = 0;
+    for (int i = 0; i < evidence->count; i++) {
+        compare(terms, &evidence->sightings[i], &expectation->shapes[i], expectation->inside[i], edge_px);
+    }
 }
 
 // Solves matrix * x = x in place, for a symmetric positive matrix (Cholesky).
@@ -187,18 +204,21 @@ static double cost_of(const struct terms *terms, const struct tilt_hint *tilt, c
 
 // The step of Gauss and Newton, damped by `damping` (Levenberg and Marquardt).
 static bool step_of(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-                    const struct pad_view *view, const struct terms *at, double damping, double step[PAD_PARAMETERS])
+                    const struct pad_view *view, const struct expectation *expectation, const struct terms *at,
+                    double damping, double step[PAD_PARAMETERS])
 {
     double slopes[PAD_PARAMETERS][RESIDUALS];
     double matrix[PAD_PARAMETERS][PAD_PARAMETERS];
 
     for (int i = 0; i < PAD_PARAMETERS; i++) {
         struct pad_view moved = *view;
+        struct expectation moved_expectation;
         struct terms there;
         moved.value[i] += step_sizes[i];
-        if (residuals_of(evidence, camera, &moved, &there) != 0) {
+        if (i != PAD_EDGE_PX && expect(evidence, camera, &moved, &moved_expectation) != 0) {
             return false;
         }
+        residuals_of(evidence, i != PAD_EDGE_PX ? &moved_expectation : expectation, moved.value[PAD_EDGE_PX], &there);
         for (int k = 0; k < at->count; k++) {
             slopes[i][k] = (at->residual[k] - there.residual[k]) / step_sizes[i];
         }
@@ -232,27 +252,33 @@ static bool step_of(const struct pad_evidence *evidence, const struct camera *ca
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
             struct pad_view *view, double *misfit, double *worst)
 {
+    struct expectation expectation;
     struct terms terms;
     double damping = 1e-4;
 
-    if (residuals_of(evidence, camera, view, &terms) != 0) {
+    if (expect(evidence, camera, view, &expectation) != 0) {
         return PAD_FIT_E_LOST;
     }
+    residuals_of(evidence, &expectation, view->value[PAD_EDGE_PX], &terms);
     double cost = cost_of(&terms, tilt, view);
     for (int i = 0; i < STEPS; i++) {
         double step[PAD_PARAMETERS];
         struct pad_view moved = *view;
-        struct terms there;
-        if (!step_of(evidence, camera, tilt, view, &terms, damping, step)) {
+        struct expectation moved_expectation;
+        struct terms there = {.count = 0};
+        if (!step_of(evidence, camera, tilt, view, &expectation, &terms, damping, step)) {
             return PAD_FIT_E_LOST;
         }
         for (int k = 0; k < PAD_PARAMETERS; k++) {
             moved.value[k] += step[k];
         }
-        const bool valid = residuals_of(evidence, camera, &moved, &there) == 0;
+        const bool valid = expect(evidence, camera, &moved, &moved_expectation) == 0;
+        if (valid) {
+            residuals_of(evidence, &moved_expectation, moved.value[PAD_EDGE_PX], &there);
+        }
         const double moved_cost = valid ? cost_of(&there, tilt, &moved) : cost;
         if (!valid || !(moved_cost < cost)) {
-            if (valid && moved_cost < cost + 1e-3) {
+            if (valid && moved_cost < cost + GAIN_MIN) {
                 break;
             }
             damping = damping * 30.0 + 1e-3;
@@ -260,10 +286,12 @@ int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, co
         }
         const double gain = cost - moved_cost;
         *view = moved;
+        expectation = moved_expectation;
         terms = there;
         cost = moved_cost;
         damping /= 10.0;
-        if (fabs(step[PAD_X_PX]) + fabs(step[PAD_Y_PX]) < CONVERGED_PX || gain < 1e-3) {
+        if (fabs(step[PAD_X_PX]) + fabs(step[PAD_Y_PX]) < CONVERGED_PX || gain < GAIN_MIN ||
+            (i >= HOPELESS_STEPS && cost > HOPELESS_COST)) {
             break;
         }
     }

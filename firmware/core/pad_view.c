@@ -175,9 +175,9 @@ static void add_box(struct sums *sums, const struct box *box)
 static void add_annulus(struct sums *sums, const struct annulus *annulus)
 {
     const int angles = sums->clipped ? ANGLES_FINE : ANGLES_COARSE;
-    const int radii = sums->clipped ? RADII_FINE : 1;
     const double outer = annulus->outer_mm * annulus->outer_mm;
     const double inner = annulus->inner_mm * annulus->inner_mm;
+    const int radii = sums->clipped ? RADII_FINE : 1;
     const double area = PI * (outer - inner) / (angles * radii);
     const double cos_step = cos(2.0 * PI / angles);
     const double sin_step = sin(2.0 * PI / angles);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doubt.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define METRES_PER_MM 0.001
+
+// Weights of what is missing or does not belong, beside the misfit.
+#define DOUBT_RING 3.0    // for all of the ring's print, where the frame would show it
+#define DOUBT_CLUTTER 2.0 // for dark things inside the ring that weigh as much as the rectangle
+#define DOUBT_NO_RING 0.5
+#define DOUBT_MISSING 1.5 // for a square, rectangle or small ring that should be there
+#define HEIGHT_TOLERANCE 0.25
+#define HEIGHT_TOLERANCE_M 0.1
+#define DOUBT_HEIGHT 1.5 // for a LiDAR reading that contradicts the size
+// With only one of square and rectangle there is little to contradict a view.
+#define CLOSE_DOUBT_MAX 1.0
+// Ring and what is inside as one: few numbers, so they have to be right.
+#define FUSED_DOUBT_MAX 0.8
+// From afar the opening takes the ring. What is left must be nearly ideal and of the right size.
+#define FAR_DOUBT_MAX 1.0
+#define FAR_RING_WIDTH_PX 6.5
+#define FAR_HEIGHT_TOLERANCE 0.12
+#define FAR_HEIGHT_TOLERANCE_M 0.05
+
+// Beyond these no view is one of a pad.
+#define WORST_MAX 5.0
+#define NO_RING_SMALL_RING_AREA_MIN_PX 150.0
+#define EDGE_MAX_PX 3.0
+#define TILT_MAX 1.3
+
+double pad_plane_height_m(const struct pad_plane *plane)
+{
+    return METRES_PER_MM *
+           (plane->centre[0] * plane->normal[0] + plane->centre[1] * plane->normal[1] +
+            plane->centre[2] * plane->normal[2]) /
+           plane->normal[2];
+}
+
+static bool contradicts_lidar(const struct detect_context *context, const struct pad_view *view)
+{
+    struct pad_plane plane;
+    const double expected_m = context->hint->height_m;
+
+    return expected_m > 0.0 && pad_plane_of(view, context->camera, &plane) == 0 &&
+           fabs(pad_plane_height_m(&plane) - expected_m) > HEIGHT_TOLERANCE * expected_m + HEIGHT_TOLERANCE_M;
+}
+
+// True where the ring cannot be seen any more, and the LiDAR says so too.
+static bool far_enough(const struct detect_context *context, const struct reading *reading, const struct pad_view *view)
+{
+    struct pad_plane plane;
+
+    if ((context->options & DETECT_FAR) == 0U || reading->ring_width_px > FAR_RING_WIDTH_PX ||
+        pad_plane_of(view, context->camera, &plane) != 0) {
+        return false;
+    }
+    const double expected_m = context->hint->height_m;
+    return fabs(pad_plane_height_m(&plane) - expected_m) <= FAR_HEIGHT_TOLERANCE * expected_m + FAR_HEIGHT_TOLERANCE_M;
+}
+
+// How far the view is from being believed; a negative number if it cannot be at all.
+double doubt_of(const struct detect_context *context, const struct reading *reading, const struct pad_view *view, double misfit, double worst)
+{
+    const double tilt = fmax(fabs(view->value[PAD_TILT_X]), fabs(view->value[PAD_TILT_Y]));
+    const double share = fmin(reading->ring_share, 1.0);
+    const double missing = fmin(1.0, 2.0 * reading->ring_inside) * (1.0 - share);
+    const bool small_ring =
+        reading_has(reading, PAD_SMALL_RING) &&
+        reading_of(reading, PAD_SMALL_RING)->seen.area_px >= NO_RING_SMALL_RING_AREA_MIN_PX;
+    const bool ring = reading->ring_share >= RING_SHARE_MIN && reading->ring_share <= RING_SHARE_MAX;
+    const bool pair = reading_has(reading, PAD_SQUARE | PAD_RECTANGLE);
+    const bool fused = reading->evidence.count == 2 && reading->evidence.sightings[0].kinds == PAD_INNER;
+
+    if (fabs(view->value[PAD_EDGE_PX]) > EDGE_MAX_PX || tilt > TILT_MAX || worst > WORST_MAX) {
+        return -1.0;
+    }
+    const double doubt = misfit + DOUBT_CLUTTER * reading->clutter + DOUBT_MISSING * reading->missing +
+                         (contradicts_lidar(context, view) ? DOUBT_HEIGHT : 0.0);
+    if (fused) {
+        return reading_has(reading, PAD_RING) && doubt <= FUSED_DOUBT_MAX ? doubt : -1.0;
+    }
+    // Two of three that do not depend on each other, one of them the pair or half of it.
+    if (pair && (ring || small_ring)) {
+        return doubt +
+               DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE)) * (small_ring ? DOUBT_NO_RING : 1.0);
+    }
+    if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
+        const double all = doubt + DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE));
+        return all <= CLOSE_DOUBT_MAX ? all : -1.0;
+    }
+    return pair && far_enough(context, reading, view) && doubt <= FAR_DOUBT_MAX ? doubt : -1.0;
+}

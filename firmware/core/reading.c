@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reading.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "pad_geometry.h"
+
+// A shape smaller than this has edges that are as large as itself.
+#define AREA_MIN_PX 20.0
+
+// How far a shape may be from where the view expects it, before the view is fitted.
+#define MATCH_DISTANCE_SIZE 0.45
+#define MATCH_DISTANCE_PX 2.0
+#define MATCH_AREA_RATIO 1.9
+// Of the small ring bloom and the opening can leave a third, or close its hole.
+#define MATCH_SMALL_RING_RATIO 3.0
+// Standard deviation along the shorter axis, nearly the width of its print. From
+// a thinner one the opening takes so much that the rest is not in the middle.
+#define SMALL_RING_SHORT_MIN_PX 5.0
+// Less than this inside the frame is a sliver that the opening may have taken.
+#define MATCH_INSIDE_MIN 0.25
+#define MATCH_INSIDE_WHOLE 0.999
+
+// The ring: root mean square distance of a piece from the centre, and how much must be seen.
+#define PIECE_RADIUS_MIN_MM 90.0
+#define PIECE_RADIUS_MAX_MM 135.0
+#define RING_REACH 1.7 // of its root mean square radius in the image
+
+// How much doubt a view may leave: its misfit, and what is missing or does not belong.
+#define MISSING_INSIDE_MIN 0.9
+#define MISSING_SMALL_RING_AREA_MIN_PX 400.0
+
+const struct sighting *reading_of(const struct reading *reading, unsigned kind)
+{
+    for (int i = 0; i < reading->evidence.count; i++) {
+        if (reading->evidence.sightings[i].kinds == kind) {
+            return &reading->evidence.sightings[i];
+        }
+    }
+    return NULL;
+}
+
+bool reading_same(const struct reading *a, const struct reading *b)
+{
+    bool same = a->evidence.count == b->evidence.count;
+
+    for (int i = 0; same && i < a->evidence.count; i++) {
+        const struct sighting *one = &a->evidence.sightings[i];
+        const struct sighting *other = &b->evidence.sightings[i];
+        same = one->kinds == other->kinds && one->clipped == other->clipped &&
+               one->seen.area_px == other->seen.area_px && one->seen.x_px == other->seen.x_px &&
+               one->seen.y_px == other->seen.y_px;
+    }
+    return same;
+}
+
+bool reading_has(const struct reading *reading, unsigned kinds)
+{
+    return (reading->kinds & kinds) == kinds;
+}
+
+static void add_sighting(struct reading *reading, unsigned kinds, const struct shape *seen, bool clipped, bool pieces)
+{
+    struct pad_evidence *evidence = &reading->evidence;
+    struct sighting *sighting = &evidence->sightings[evidence->count];
+
+    sighting->kinds = kinds;
+    sighting->clipped = clipped;
+    sighting->pieces = pieces;
+    sighting->seen = *seen;
+    reading->kinds |= kinds != PAD_INNER ? kinds : 0U;
+    evidence->count++;
+}
+
+// The object that is nearest to what the view expects of one of the inner shapes.
+static void match(const struct detect_context *context, const struct pad_plane *plane, double edge_px, unsigned kind,
+                  struct reading *reading)
+{
+    struct shape expected;
+    const struct candidate *nearest = NULL;
+    double least = 0.0;
+    double inside = pad_plane_moments(plane, context->camera, kind, false, &expected);
+
+    if (!(inside > 0.0)) {
+        return;
+    }
+    inside = 1.0;
+    // Roughly how far it reaches: only near the border is the finer grid worth its time.
+    const double reach = 2.0 * sqrt(expected.cov_xx + expected.cov_yy);
+    if (expected.x_px < reach || expected.y_px < reach || expected.x_px > context->camera->width_px - 1.0 - reach ||
+        expected.y_px > context->camera->height_px - 1.0 - reach) {
+        inside = pad_plane_moments(plane, context->camera, kind, true, &expected);
+        if (inside < MATCH_INSIDE_MIN) {
+            return;
+        }
+    }
+    const bool whole = inside > MATCH_INSIDE_WHOLE;
+    double long_px;
+    double short_px;
+    struct vector axis;
+    shape_axes(&expected, &long_px, &short_px, &axis);
+    if (kind == PAD_SMALL_RING && short_px < SMALL_RING_SHORT_MIN_PX) {
+        return;
+    }
+    if (!whole && (context->options & DETECT_CLOSE) == 0U) {
+        return;
+    }
+    const double edges_px = inside * pad_edge_mm(kind) * sqrt(expected.area_px / (inside * pad_area_mm2(kind)));
+    const double area_px = fmax(expected.area_px + edge_px * edges_px, AREA_MIN_PX);
+    const double ratio = kind == PAD_SMALL_RING ? MATCH_SMALL_RING_RATIO : MATCH_AREA_RATIO;
+    const double reachable = MATCH_DISTANCE_PX + MATCH_DISTANCE_SIZE * sqrt(expected.area_px);
+    for (int i = 0; i < context->scratch->count; i++) {
+        const struct candidate *candidate = &context->scratch->candidates[i];
+        const struct shape *shape = &candidate->shape;
+        const double x = shape->x_px - expected.x_px;
+        const double y = shape->y_px - expected.y_px;
+        const double squared = x * x + y * y;
+        if (squared > reachable * reachable || shape->area_px > ratio * area_px || shape->area_px * ratio < area_px ||
+            (candidate->clipped && whole && inside < 1.0 - 1e-9)) {
+            continue;
+        }
+        if (nearest == NULL || squared < least) {
+            nearest = candidate;
+            least = squared;
+        }
+    }
+    if (nearest != NULL) {
+        add_sighting(reading, kind, &nearest->shape, nearest->clipped || !whole, false);
+    } else if (inside > MISSING_INSIDE_MIN && (kind != PAD_SMALL_RING || area_px > MISSING_SMALL_RING_AREA_MIN_PX)) {
+        reading->missing++;
+    }
+}
+
+// Mean square distance of a shape's print from the pad's centre, mm^2; negative if it looks past the plane.
+static double square_radius(const struct detect_context *context, const struct pad_plane *plane, const struct shape *shape)
+{
+    double x;
+    double y;
+    double right_x;
+    double right_y;
+    double below_x;
+    double below_y;
+
+    if (pad_plane_unproject(plane, context->camera, shape->x_px, shape->y_px, &x, &y) != 0 ||
+        pad_plane_unproject(plane, context->camera, shape->x_px + 1.0, shape->y_px, &right_x, &right_y) != 0 ||
+        pad_plane_unproject(plane, context->camera, shape->x_px, shape->y_px + 1.0, &below_x, &below_y) != 0) {
+        return -1.0;
+    }
+    const double xx = (right_x - x) * (right_x - x) + (right_y - y) * (right_y - y);
+    const double yy = (below_x - x) * (below_x - x) + (below_y - y) * (below_y - y);
+    const double xy = (right_x - x) * (below_x - x) + (right_y - y) * (below_y - y);
+
+    return x * x + y * y + xx * shape->cov_xx + 2.0 * xy * shape->cov_xy + yy * shape->cov_yy;
+}
+
+// Several shapes taken as one, summed up near where they are expected.
+struct merged {
+    struct shape origin; // only its place is used
+    double area;
+    double x;
+    double y;
+    double xx;
+    double xy;
+    double yy;
+};
+
+static void merge(struct merged *merged, const struct shape *shape)
+{
+    const struct vector offset = shape_offset(&merged->origin, shape);
+
+    merged->area += shape->area_px;
+    merged->x += shape->area_px * offset.x;
+    merged->y += shape->area_px * offset.y;
+    merged->xx += shape->area_px * (shape->cov_xx + offset.x * offset.x);
+    merged->xy += shape->area_px * (shape->cov_xy + offset.x * offset.y);
+    merged->yy += shape->area_px * (shape->cov_yy + offset.y * offset.y);
+}
+
+static struct shape shape_of(const struct merged *merged)
+{
+    const double x = merged->x / merged->area;
+    const double y = merged->y / merged->area;
+    const struct shape shape = {.area_px = merged->area,
+                                .x_px = merged->origin.x_px + x,
+                                .y_px = merged->origin.y_px + y,
+                                .cov_xx = merged->xx / merged->area - x * x,
+                                .cov_xy = merged->xy / merged->area - x * y,
+                                .cov_yy = merged->yy / merged->area - y * y};
+
+    return shape;
+}
+
+static bool is_sighted(const struct reading *reading, const struct shape *shape)
+{
+    for (int i = 0; i < reading->evidence.count; i++) {
+        const struct shape *seen = &reading->evidence.sightings[i].seen;
+        if (seen->x_px == shape->x_px && seen->y_px == shape->y_px) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void match_ring(const struct detect_context *context, const struct pad_plane *plane, double edge_px,
+                       struct reading *reading)
+{
+    struct shape expected;
+    struct merged ring = {.area = 0.0};
+    int pieces = 0;
+    bool clipped = false;
+    const double inside = pad_plane_moments(plane, context->camera, PAD_RING, true, &expected);
+
+    reading->ring_inside = inside;
+    ring.origin = expected;
+    if (!(inside > 0.05)) {
+        return;
+    }
+    const double edges_px = inside * pad_edge_mm(PAD_RING) * sqrt(expected.area_px / (inside * pad_area_mm2(PAD_RING)));
+    const double area_px = fmax(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
+    reading->ring_width_px = 2.0 * area_px / edges_px;
+    // The disc, in any direction, from wherever the border has moved the centroid to.
+    const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / fmax(inside, 0.3);
+    for (int i = 0; i < context->scratch->count; i++) {
+        const struct candidate *candidate = &context->scratch->candidates[i];
+        const struct shape *shape = &candidate->shape;
+        const double x = shape->x_px - expected.x_px;
+        const double y = shape->y_px - expected.y_px;
+        if (shape->area_px > RING_SHARE_MAX * area_px || x * x + y * y > reach * reach) {
+            continue;
+        }
+        const double square = square_radius(context, plane, shape);
+        if (square > SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM &&
+            square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !is_sighted(reading, shape)) {
+            reading->clutter += shape->area_px / (area_px / inside) * pad_area_mm2(PAD_RING) / pad_area_mm2(PAD_RECTANGLE);
+        }
+        if (!(square > PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM) ||
+            !(square < PIECE_RADIUS_MAX_MM * PIECE_RADIUS_MAX_MM)) {
+            continue;
+        }
+        merge(&ring, shape);
+        clipped = clipped || candidate->clipped;
+        pieces++;
+    }
+    reading->ring_share = ring.area / area_px;
+    if (reading->ring_share < RING_SHARE_WHOLE || reading->ring_share > 1.0 / RING_SHARE_WHOLE ||
+        ((context->options & DETECT_RING_PIECES) == 0U && (pieces != 1 || clipped))) {
+        return;
+    }
+    const struct shape seen = shape_of(&ring);
+    add_sighting(reading, PAD_RING, &seen, clipped || inside < MATCH_INSIDE_WHOLE, pieces > 1);
+}
+
+// All that lies inside the ring, as one: the inner shapes have run together.
+static void match_fused(const struct detect_context *context, const struct pad_plane *plane, struct reading *reading)
+{
+    struct merged inner = {.area = 0.0};
+    struct shape expected;
+
+    pad_plane_moments(plane, context->camera, PAD_INNER, false, &expected);
+    inner.origin = expected;
+    for (int i = 0; i < context->scratch->count; i++) {
+        const struct candidate *candidate = &context->scratch->candidates[i];
+        const double square = square_radius(context, plane, &candidate->shape);
+        if (square >= 0.0 && square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !candidate->clipped) {
+            merge(&inner, &candidate->shape);
+        }
+    }
+    if (inner.area > expected.area_px / MATCH_AREA_RATIO && inner.area < expected.area_px * MATCH_AREA_RATIO) {
+        const struct shape seen = shape_of(&inner);
+        add_sighting(reading, PAD_INNER, &seen, false, false);
+    }
+}
+
+int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused, struct reading *reading)
+{
+    struct pad_plane plane;
+    const double edge_px = view->value[PAD_EDGE_PX];
+
+    *reading = (struct reading){.kinds = 0U};
+    if (pad_plane_of(view, context->camera, &plane) != 0) {
+        return DETECT_E_NO_PAD;
+    }
+    if (fused) {
+        match_fused(context, &plane, reading);
+    } else {
+        match(context, &plane, edge_px, PAD_SQUARE, reading);
+        match(context, &plane, edge_px, PAD_RECTANGLE, reading);
+        match(context, &plane, edge_px, PAD_SMALL_RING, reading);
+    }
+    match_ring(context, &plane, edge_px, reading);
+    return 0;
+}

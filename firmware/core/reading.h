@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a view of the pad makes of a record: which object is which shape, what is
+// missing, and what does not belong.
+#ifndef TOUCHDOWN_READING_H
+#define TOUCHDOWN_READING_H
+
+#include "detect.h"
+
+// Of the ring's print: less is no witness, more is something else, and this much is the whole ring.
+#define RING_SHARE_MIN 0.3
+#define RING_SHARE_MAX 1.5
+#define RING_SHARE_WHOLE 0.85
+
+struct detect_context {
+    const struct detect_scratch *scratch;
+    const struct camera *camera;
+    const struct detect_hint *hint;
+    uint32_t options;
+};
+
+// What a view makes of the record.
+struct reading {
+    struct pad_evidence evidence;
+    double ring_share;
+    double ring_inside; // share of the ring's print inside the frame
+    double clutter;     // dark things inside the ring that are not of the pad, in rectangles
+    int missing;        // inner shapes that should be seen and are not
+    double ring_width_px;
+    unsigned kinds;
+};
+
+// `fused`: all that lies inside the ring is taken as one shape.
+// Fails when the view is of nothing that the camera could see.
+int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused,
+                 struct reading *reading);
+
+// True when the same objects were taken for the same shapes.
+bool reading_same(const struct reading *a, const struct reading *b);
+
+// True when all of these shapes were found, each for itself.
+bool reading_has(const struct reading *reading, unsigned kinds);
+
+// The sighting of one shape by itself; NULL if there is none.
+const struct sighting *reading_of(const struct reading *reading, unsigned kind);
+
+#endif
