@@ -18,14 +18,14 @@ static enum track_result frame(bool found)
     return tracker_update(&tracker, &camera_default, now_us, found, &pad);
 }
 
-// Where the pad is after `seconds`: 0.3 m/s to the right, 0.6 m/s nearer, turning through 180 degrees.
+// Where the pad is after `seconds`: 0.3 m/s to the right, 0.6 m/s nearer, turning through 180 degrees in frame 41.
 static struct pad_estimate moving(double seconds)
 {
     const struct pad_estimate at = {.right_m = 0.1 + 0.3 * seconds,
                                     .forward_m = -0.2,
                                     .depth_m = 1.5 - 0.6 * seconds,
                                     .height_m = 1.52 - 0.6 * seconds,
-                                    .angle_deg = remainder(176.0 + 40.0 * seconds, 360.0),
+                                    .angle_deg = remainder(153.0 + 40.0 * seconds, 360.0),
                                     .doubt = 0.7,
                                     .kinds = PAD_RING};
 
@@ -58,7 +58,7 @@ static enum track_result jump(double right_m)
 static void test_measured(void)
 {
     test_case("what was measured goes out as it was measured");
-    follow(20);
+    follow(60);
     const struct pad_estimate truth = moving(seconds());
     CHECK(memcmp(&pad, &truth, sizeof pad) == 0);
 }
