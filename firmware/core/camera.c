@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "camera_default.h"
+
 // tan(theta / 2) at theta = 80 degrees. Beyond it the plane below the camera is
 // so far away that a pixel of noise is metres.
 #define HALF_ANGLE_TANGENT_LIMIT 0.8390996
@@ -10,13 +12,13 @@
 // Enough to invert the lens to less than 1e-6 px where its polynomial rises.
 #define LENS_STEPS 6
 
-const struct camera camera_default = {.focal_px = 552.0,
-                                      .centre_x_px = 640.0,
-                                      .centre_y_px = 360.0,
-                                      .width_px = 1280.0,
-                                      .height_px = 720.0,
-                                      .radial_2 = 0.0,
-                                      .radial_4 = 0.0};
+const struct camera camera_default = {.focal_px = CAMERA_FOCAL_PX,
+                                      .centre_x_px = CAMERA_CENTRE_X_PX,
+                                      .centre_y_px = CAMERA_CENTRE_Y_PX,
+                                      .width_px = CAMERA_WIDTH_PX,
+                                      .height_px = CAMERA_HEIGHT_PX,
+                                      .radial_2 = CAMERA_RADIAL_2,
+                                      .radial_4 = CAMERA_RADIAL_4};
 
 struct camera camera_scaled(const struct camera *camera, double width_px)
 {

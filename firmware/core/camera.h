@@ -24,6 +24,7 @@ struct camera_ray {
     double forward; // tan of the angle ahead of body down
 };
 
+// Of firmware/camera.toml, or of the file that CAMERA named in the build.
 extern const struct camera camera_default;
 
 // The same optics in a frame of another width, all of the field of view kept.

@@ -20,7 +20,7 @@
 #define SOLID_INVARIANT_MAX 13.4
 
 // How much doubt a view may leave: its misfit, and what is missing or does not belong.
-#define DOUBT_MAX 2.5
+#define DOUBT_MAX 2.0
 // With this little no other hypothesis is tried.
 #define DOUBT_NONE 0.6
 // A view this bad may be the mirror image of a better one.

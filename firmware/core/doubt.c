@@ -14,12 +14,18 @@
 #define HEIGHT_TOLERANCE 0.25
 #define HEIGHT_TOLERANCE_M 0.1
 #define DOUBT_HEIGHT 1.5 // for a LiDAR reading that contradicts the size
+// Of a ring in pieces that is not whole enough to be fitted, any grass may be a part.
+#define PIECES_DOUBT_MAX 1.2
+#define UNCONFIRMED_TILT 0.4
+#define UNCONFIRMED_DOUBT_MAX 1.0
 // With only one of square and rectangle there is little to contradict a view.
 #define CLOSE_DOUBT_MAX 1.0
 // Ring and what is inside as one: few numbers, so they have to be right.
 #define FUSED_DOUBT_MAX 0.8
-// From afar the opening takes the ring. What is left must be nearly ideal and of the right size.
-#define FAR_DOUBT_MAX 1.0
+// From afar the opening takes the ring. What is left must be nearly ideal, of the
+// right size, and lie as the autopilot's attitude says.
+#define FAR_DOUBT_MAX 0.6
+#define ATTITUDE_SIGMA 0.1
 #define FAR_RING_WIDTH_PX 6.5
 #define FAR_HEIGHT_TOLERANCE 0.12
 #define FAR_HEIGHT_TOLERANCE_M 0.05
@@ -52,7 +58,7 @@ static bool far_enough(const struct detect_context *context, const struct readin
 {
     struct pad_plane plane;
 
-    if ((context->options & DETECT_FAR) == 0U || reading->ring_width_px > FAR_RING_WIDTH_PX ||
+    if ((context->options & DETECT_FAR) == 0U || context->hint->tilt.sigma > ATTITUDE_SIGMA || reading->ring_width_px > FAR_RING_WIDTH_PX ||
         pad_plane_of(view, context->camera, &plane) != 0) {
         return false;
     }
@@ -81,14 +87,22 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     if (fused) {
         return reading_has(reading, PAD_RING) && doubt <= FUSED_DOUBT_MAX ? doubt : -1.0;
     }
+    // A tilt that no attitude confirms can make a false pad of many things.
+    if (doubt > UNCONFIRMED_DOUBT_MAX && context->hint->tilt.sigma > ATTITUDE_SIGMA &&
+        hypot(view->value[PAD_TILT_X], view->value[PAD_TILT_Y]) > UNCONFIRMED_TILT) {
+        return -1.0;
+    }
+    const double broken = DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE));
     // Two of three that do not depend on each other, one of them the pair or half of it.
-    if (pair && (ring || small_ring)) {
-        return doubt +
-               DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE)) * (small_ring ? DOUBT_NO_RING : 1.0);
+    if (pair && small_ring) {
+        return doubt + DOUBT_NO_RING * broken;
+    }
+    if (pair && ring) {
+        const bool whole = reading_has(reading, PAD_RING);
+        return whole || doubt + broken <= PIECES_DOUBT_MAX ? doubt + broken : -1.0;
     }
     if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
-        const double all = doubt + DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE));
-        return all <= CLOSE_DOUBT_MAX ? all : -1.0;
+        return doubt + broken <= CLOSE_DOUBT_MAX ? doubt + broken : -1.0;
     }
     return pair && far_enough(context, reading, view) && doubt <= FAR_DOUBT_MAX ? doubt : -1.0;
 }
