@@ -24,6 +24,9 @@ COUNT ?=
 SETS ?=
 OPTIONS ?=
 NO_GOALS ?=
+BOARD ?=
+SQUARE_MM ?=
+RADIAL ?=
 JOBS ?= 2
 
 .PHONY: help
@@ -93,12 +96,16 @@ frames: setup ## Whole frames through landing_core, every stream equal to golden
 accuracy: setup ## How well the pad is found, against truth and goals: [FRAMES=folder] [RUN=golden|rtl] [COUNT=n] [SETS="a b"]
 	@$(PYTHON) -m sim.accuracy.run --jobs $(JOBS) --run "$(RUN)" $(if $(FRAMES),--frames "$(FRAMES)") $(if $(ALTITUDE),--altitude "$(ALTITUDE)") $(if $(COUNT),--count "$(COUNT)") $(if $(SETS),--sets $(SETS)) $(if $(filter-out 0,$(OPTIONS)),--options) $(if $(filter-out 0,$(NO_GOALS)),--no-goals)
 
+.PHONY: calibrate
+calibrate: setup ## Measure the camera from photos of a chessboard or the pad: FRAMES=folder [BOARD=9x6|pad] [SQUARE_MM=25] [RADIAL=0|1|2]
+	@$(PYTHON) -m scripts.calibrate --frames "$(FRAMES)" $(if $(BOARD),--board "$(BOARD)") $(if $(SQUARE_MM),--square-mm "$(SQUARE_MM)") $(if $(RADIAL),--radial "$(RADIAL)")
+
 .PHONY: regmap
 regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl
 	@$(PYTHON) -m scripts.regmap
 
 .PHONY: firmware
-firmware: setup ## Build build/firmware/touchdown.elf
+firmware: setup ## Build build/firmware/touchdown.elf: [CAMERA=file], as make calibrate writes it
 	@$(MAKE) --no-print-directory -C firmware elf
 
 .PHONY: clean

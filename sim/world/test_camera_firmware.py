@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from scripts.camera_file import DEFAULT, header_of, read_camera
 from sim.world.camera import Camera
 from sim.world.pose import Pose, truth_of
 
@@ -31,9 +32,11 @@ class Ray(ctypes.Structure):
 
 @pytest.fixture(scope="module")
 def firmware(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
-    """firmware/core/camera.c, compiled for this machine."""
-    library = tmp_path_factory.mktemp("camera") / "camera.so"
-    subprocess.run(["gcc", "-shared", "-fPIC", "-O1", "-o", library, SOURCE, "-lm"], check=True)
+    """firmware/core/camera.c, compiled for this machine with the camera of firmware/camera.toml."""
+    folder = tmp_path_factory.mktemp("camera")
+    (folder / "camera_default.h").write_text(header_of(read_camera(DEFAULT)))
+    library = folder / "camera.so"
+    subprocess.run(["gcc", "-shared", "-fPIC", "-O1", f"-I{folder}", "-o", library, SOURCE, "-lm"], check=True)
     loaded = ctypes.CDLL(str(library))
     loaded.camera_unproject.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_void_p]
     loaded.camera_scaled.argtypes = [ctypes.c_void_p, ctypes.c_double]
