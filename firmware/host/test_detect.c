@@ -218,12 +218,15 @@ static void test_far(void)
     scene_paint(&record, &scene, scene_rectangle);
     CHECK(!find(DETECT_ALL));
     hint.height_m = 2.45;
+    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) != 0); // no attitude
+    hint.tilt.sigma = 0.025;
     CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
     check_centre(&scene, 0.2);
     CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL & ~DETECT_FAR, &scratch, &pad) != 0);
     hint.height_m = 1.7; // another size of the same shapes
     CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) != 0);
     test_case("a LiDAR that contradicts a whole pad raises the doubt");
+    hint = detect_no_hint;
     scene_clear(&record);
     scene_paint_pad(&record, &scene);
     hint.height_m = 2.4;
