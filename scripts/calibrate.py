@@ -28,22 +28,22 @@ PAD = "pad"
 FEWEST = {"board": 5, PAD: 10}
 
 
-def photos(folder: str) -> list[Path]:
-    """All pictures in a folder and below.
+def photos(folder: str) -> dict[str, Path]:
+    """All pictures in a folder and below, by their names in it.
 
     Raises:
         UserError: it is no folder, or holds none.
     """
     root = Path(folder)
-    if not root.is_dir():
+    if not folder or not root.is_dir():
         raise UserError(f"{folder or 'nothing'} is not a folder; give the folder of your photos as FRAMES=folder.")
     files = sorted(path for path in root.rglob("*") if path.is_file() and path.suffix.lower() in PICTURE_SUFFIXES)
     if not files:
         raise UserError(f"{folder} holds no PNG or JPEG file; give the folder of your photos as FRAMES=folder.")
-    return files
+    return {str(path.relative_to(root)): path for path in files}
 
 
-def calibrate(files: list[Path], board: str, square_mm: float, radial: int) -> Fit:
+def calibrate(files: dict[str, Path], board: str, square_mm: float, radial: int) -> Fit:
     """Fit the camera to photos, starting from the default camera.
 
     Args:
@@ -73,9 +73,9 @@ def calibrate(files: list[Path], board: str, square_mm: float, radial: int) -> F
     return fit_without_outliers(camera, views, free)
 
 
-def _views(files: list[Path], find: partial) -> Iterator[View]:
-    for file in files:
-        view = find(read_picture(file), name=file.name)
+def _views(files: dict[str, Path], find: partial) -> Iterator[View]:
+    for name, file in files.items():
+        view = find(read_picture(file), name=name)
         if view is not None:
             yield view
 

@@ -1,11 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Photos to calibrate with, made by calculation: what the tests and the page of the calibration measure against."""
+"""Photos to calibrate with, made by calculation, by a camera that is known.
+
+python -m scripts.calibrate_rendered --target board --camera camera.toml --out FOLDER
+"""
 
 import math
+from collections.abc import Iterator
+from pathlib import Path
 
+import cv2
 import numpy as np
 
 from scripts.calibrate_chessboard import Board
+from scripts.camera_file import DEFAULT, read_camera
+from scripts.errors import ArgumentParser, UserError, run_main
 from sim.world.camera import Camera
 from sim.world.lens import blur
 from sim.world.look import Look
@@ -13,6 +21,8 @@ from sim.world.pad import Box, Sheet, coverage
 from sim.world.pose import Pose, camera_from_level, pad_to_level
 from sim.world.scene import Scene, render_scene
 
+BOARD = Board(9, 6, 25.0)
+_SEED = 3
 _BLACK, _WHITE, _GROUND, _NOISE = 50.0, 205.0, 110.0, 1.0
 
 
@@ -66,3 +76,32 @@ def spread_poses(
 def render_pad(pose: Pose, camera: Camera, seed: int) -> np.ndarray:
     """A photo (height, width, 3) uint8 of the pad on grass."""
     return render_scene(Scene(pose, Look(), seed=seed, camera=camera))[0]
+
+
+def render_all(target: str, count: int, camera: Camera) -> Iterator[np.ndarray]:
+    """Photos of a board ("board") or of the pad ("pad"), from all round."""
+    if target == "pad":
+        poses = spread_poses(count, (0.3, 1.0), 0.7, 8.0, _SEED)
+        return (render_pad(pose, camera, index) for index, pose in enumerate(poses))
+    poses = spread_poses(count, (0.2, 0.3), 0.5, 25.0, _SEED)
+    return (render_board(BOARD, pose, camera, index) for index, pose in enumerate(poses))
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Entry point."""
+    parser = ArgumentParser(prog="python -m scripts.calibrate_rendered", description=__doc__)
+    parser.add_argument("--target", choices=("board", "pad"), default="board", help="what lies on the ground")
+    parser.add_argument("--count", type=int, default=20, help="photos")
+    parser.add_argument("--camera", type=Path, default=DEFAULT, help="the camera that takes them, as a camera.toml")
+    parser.add_argument("--out", type=Path, required=True, help="folder for the photos")
+    options = parser.parse_args(arguments)
+    camera = read_camera(options.camera)
+    options.out.mkdir(parents=True, exist_ok=True)
+    for index, rgb in enumerate(render_all(options.target, options.count, camera)):
+        file = options.out / f"{options.target}{index:02}.png"
+        if not cv2.imwrite(str(file), cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR)):
+            raise UserError(f"{file} cannot be written; give another folder as --out.")
+
+
+if __name__ == "__main__":
+    run_main(main)
