@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "pad_geometry.h"
@@ -18,6 +19,8 @@
 #define MIN_AREA_START_PX 100U
 #define MIN_AREA_LEAST_PX 30U
 #define MIN_AREA_GREATEST_PX 150U
+// Of a square below the camera; 50 degrees off the axis its image is four times smaller.
+#define SQUARE_SHARE 0.15
 // A window of 128x128 with less contrast shows paper or a black shape alone, and
 // is judged by its neighbour's threshold. The noise of a camera stays below it.
 #define FLAT_LIMIT 16U
@@ -112,8 +115,23 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
                                  APP_PAD_FIELDS, bytes));
 }
 
-static void adapt_min_area(struct app *app, const struct landing_result_header *header)
+// Close to the ground all shapes of the pad are large, and what is smaller only costs time.
+static uint32_t least_area_px(const struct lidar_reading *lidar)
 {
+    const double side_px = SQUARE_SIDE_MM * camera_default.focal_px / fmax((double)lidar->distance_mm, 1.0);
+
+    if (!fusion_lidar_usable(lidar)) {
+        return MIN_AREA_LEAST_PX;
+    }
+    return (uint32_t)fmin(fmax(SQUARE_SHARE * side_px * side_px, (double)MIN_AREA_LEAST_PX),
+                          (double)MIN_AREA_GREATEST_PX);
+}
+
+static void adapt_min_area(struct app *app, const struct landing_result_header *header,
+                           const struct lidar_reading *lidar)
+{
+    const uint32_t least_px = least_area_px(lidar);
+
     // A change shows a few frames later, and without thresholds there are no
     // objects: until then there is nothing to learn.
     if (header->min_area != app->min_area_px || (header->flags & LANDING_HEADER_FLAGS_THRESHOLDS_MISSING_MASK) != 0U) {
@@ -124,7 +142,7 @@ static void adapt_min_area(struct app *app, const struct landing_result_header *
     } else if (header->object_count < OBJECTS_FEW) {
         app->min_area_px -= app->min_area_px / 5U;
     }
-    app->min_area_px = app->min_area_px < MIN_AREA_LEAST_PX      ? MIN_AREA_LEAST_PX
+    app->min_area_px = app->min_area_px < least_px               ? least_px
                        : app->min_area_px > MIN_AREA_GREATEST_PX ? MIN_AREA_GREATEST_PX
                                                                  : app->min_area_px;
 }
@@ -160,7 +178,6 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     app->last_frame_number = record->header.frame_number;
     app->last_record_us = now_us;
-    adapt_min_area(app, &record->header);
     app->health[APP_HEALTH_RECORDS]++;
     app->health[APP_HEALTH_FRAMES_MALFORMED] = record->header.frames_malformed;
     app->health[APP_HEALTH_FRAMES_OVERFLOW] = record->header.frames_overflow;
@@ -170,6 +187,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         .distance_mm = record->header.altitude_mm,
         .age_us = record->header.altitude_age_us,
     };
+    adapt_min_area(app, &record->header, &lidar);
     // Smaller frames are the same camera, binned.
     struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
     camera.height_px = (double)record->header.frame_size_height;

@@ -34,6 +34,26 @@
 
 const struct detect_hint detect_no_hint = {.tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0};
 
+// By rising area (Shell): bounded, in place.
+static void sort_solids(struct detect_scratch *scratch)
+{
+    static const int gaps[] = {57, 23, 10, 4, 1};
+    uint16_t *solids = scratch->solids;
+
+    for (size_t pass = 0; pass < sizeof gaps / sizeof gaps[0]; pass++) {
+        const int gap = gaps[pass];
+        for (int i = gap; i < scratch->solid_count; i++) {
+            const uint16_t moved = solids[i];
+            const double area = scratch->candidates[moved].shape.area_px;
+            int place = i;
+            for (; place >= gap && scratch->candidates[solids[place - gap]].shape.area_px > area; place -= gap) {
+                solids[place] = solids[place - gap];
+            }
+            solids[place] = moved;
+        }
+    }
+}
+
 static void collect(const struct landing_record *record, const struct camera *camera, struct detect_scratch *scratch)
 {
     const double right = camera->width_px - 1.0;
@@ -51,17 +71,12 @@ static void collect(const struct landing_record *record, const struct camera *ca
                              (double)object->box_max_x >= right || (double)object->box_max_y >= bottom;
         const double invariant = candidate->shape.invariant;
         if (!candidate->clipped && invariant >= SOLID_INVARIANT_MIN && invariant <= SOLID_INVARIANT_MAX) {
-            // Sorted by insertion: bounded by the 256 of a record.
-            int place = scratch->solid_count;
-            for (; place > 0 && scratch->candidates[scratch->solids[place - 1]].shape.area_px > candidate->shape.area_px;
-                 place--) {
-                scratch->solids[place] = scratch->solids[place - 1];
-            }
-            scratch->solids[place] = (uint16_t)scratch->count;
+            scratch->solids[scratch->solid_count] = (uint16_t)scratch->count;
             scratch->solid_count++;
         }
         scratch->count++;
     }
+    sort_solids(scratch);
 }
 
 // What was seen of a shape less what the view expects of it, at its centroid.

@@ -180,9 +180,18 @@ static struct surroundings surroundings_of(const struct detect_scratch *scratch,
                                            const struct shape *square_shape, const struct shape *rectangle, bool pieces)
 {
     struct surroundings around = {.ring_share = 0.0};
+    // Whatever has its centroid farther away than this is no piece: most end here.
+    const double reach = piece_radius_mm.greatest * piece_radius_mm.greatest *
+                         (affine->across.x * affine->across.x + affine->across.y * affine->across.y +
+                          affine->down.x * affine->down.x + affine->down.y * affine->down.y);
 
     for (int i = 0; i < scratch->count; i++) {
         const struct candidate *candidate = &scratch->candidates[i];
+        const double x = candidate->shape.x_px - affine->origin.x;
+        const double y = candidate->shape.y_px - affine->origin.y;
+        if (x * x + y * y > reach) {
+            continue;
+        }
         const double square = square_radius(affine, &candidate->shape);
         const bool whole = !candidate->clipped && in_range(candidate->shape.invariant, ring_invariant);
         if (square >= piece_radius_mm.least * piece_radius_mm.least &&
@@ -237,6 +246,11 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
                           uint32_t options, const struct shape *square, const struct shape *rectangle, struct hypotheses *found)
 {
     const struct vector line = shape_offset(rectangle, square);
+    // No variance exceeds the sum of both: most pairs are far apart and end here.
+    if (line.x * line.x + line.y * line.y >
+        baseline_to_rectangle.greatest * baseline_to_rectangle.greatest * (rectangle->cov_xx + rectangle->cov_yy)) {
+        return;
+    }
     const double squared = shape_inner(rectangle, line, line);
     struct hypothesis hypothesis = {.fused = false};
     struct affine affine;

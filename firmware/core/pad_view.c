@@ -11,8 +11,9 @@
 #define GAUSS_2 0.28867513459481287
 #define CELLS_COARSE 2
 #define CELLS_FINE 6
-#define ANGLES_COARSE 12
-#define ANGLES_FINE 36
+// Angles on a ring, in tens of degrees.
+#define TENS_COARSE 3
+#define TENS_FINE 1
 #define RADII_FINE 2
 
 struct box {
@@ -111,6 +112,7 @@ struct sums {
     const struct pad_plane *plane;
     const struct camera *camera;
     bool clipped;
+    double height_mm;   // of the camera above the plane
     double origin_x_px; // near the shapes, so that nothing cancels
     double origin_y_px;
     double whole; // area without the frame's border, pixels
@@ -139,9 +141,8 @@ static void add_point(struct sums *sums, double x_mm, double y_mm, double area_m
 
     point_of(sums->plane, x_mm, y_mm, point);
     const double scale = camera_image(sums->camera, point, &x_px, &y_px);
-    // Both ways a mm across the ray becomes `scale` pixels; the plane is inclined to it.
-    const double slope = fabs(dot(point, sums->plane->normal)) / sqrt(dot(point, point));
-    double area = area_mm2 * scale * slope;
+    // Both ways a mm across the ray becomes sqrt(scale) pixels; the plane is inclined to it.
+    double area = area_mm2 * scale * sums->height_mm / sqrt(dot(point, point));
 
     sums->whole += area;
     if (sums->clipped) {
@@ -172,34 +173,51 @@ static void add_box(struct sums *sums, const struct box *box)
     }
 }
 
+// Cosine of multiples of 10 degrees.
+static double cosine(int tens)
+{
+    static const double quarter[] = {1.0,
+                                     0.984807753012208,
+                                     0.9396926207859084,
+                                     0.8660254037844387,
+                                     0.766044443118978,
+                                     0.6427876096865394,
+                                     0.5,
+                                     0.3420201433256688,
+                                     0.17364817766693033,
+                                     0.0};
+    const int turn = tens % 36;
+
+    return turn <= 9    ? quarter[turn]
+           : turn <= 18 ? -quarter[18 - turn]
+           : turn <= 27 ? -quarter[turn - 18]
+                        : quarter[36 - turn];
+}
+
 static void add_annulus(struct sums *sums, const struct annulus *annulus)
 {
-    const int angles = sums->clipped ? ANGLES_FINE : ANGLES_COARSE;
+    const int step = sums->clipped ? TENS_FINE : TENS_COARSE;
+    const int radii = sums->clipped ? RADII_FINE : 1;
     const double outer = annulus->outer_mm * annulus->outer_mm;
     const double inner = annulus->inner_mm * annulus->inner_mm;
-    const int radii = sums->clipped ? RADII_FINE : 1;
-    const double area = PI * (outer - inner) / (angles * radii);
-    const double cos_step = cos(2.0 * PI / angles);
-    const double sin_step = sin(2.0 * PI / angles);
-    double x = 1.0;
-    double y = 0.0;
+    const double area = PI * (outer - inner) * step / (36 * radii);
 
-    for (int i = 0; i < angles; i++) {
-        for (int j = 0; j < radii; j++) {
-            // Rings of equal area; the one radius has the right second moments.
-            const double radius = sqrt(inner + (outer - inner) * (j + 0.5) / radii);
-            add_point(sums, radius * x, radius * y, area);
+    for (int i = 0; i < radii; i++) {
+        // Rings of equal area; the one radius has the right second moments.
+        const double radius = sqrt(inner + (outer - inner) * (i + 0.5) / radii);
+        for (int tens = 0; tens < 36; tens += step) {
+            add_point(sums, radius * cosine(tens), radius * cosine(tens + 27), area);
         }
-        const double turned = x * cos_step - y * sin_step;
-        y = x * sin_step + y * cos_step;
-        x = turned;
     }
 }
 
 double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds, bool clipped,
                          struct shape *seen)
 {
-    struct sums sums = {.plane = plane, .camera = camera, .clipped = clipped};
+    struct sums sums = {.plane = plane,
+                        .camera = camera,
+                        .clipped = clipped,
+                        .height_mm = fabs(dot(plane->centre, plane->normal))};
 
     camera_image(camera, plane->centre, &sums.origin_x_px, &sums.origin_y_px);
     if ((kinds & PAD_SQUARE) != 0U) {

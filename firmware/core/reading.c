@@ -73,6 +73,17 @@ static void add_sighting(struct reading *reading, unsigned kinds, const struct s
     evidence->count++;
 }
 
+// Standard deviation along the shorter axis.
+static double short_side(const struct shape *shape)
+{
+    double long_px;
+    double short_px;
+    struct vector axis;
+
+    shape_axes(shape, &long_px, &short_px, &axis);
+    return short_px;
+}
+
 // The object that is nearest to what the view expects of one of the inner shapes.
 static void match(const struct detect_context *context, const struct pad_plane *plane, double edge_px, unsigned kind,
                   struct reading *reading)
@@ -96,11 +107,7 @@ static void match(const struct detect_context *context, const struct pad_plane *
         }
     }
     const bool whole = inside > MATCH_INSIDE_WHOLE;
-    double long_px;
-    double short_px;
-    struct vector axis;
-    shape_axes(&expected, &long_px, &short_px, &axis);
-    if (kind == PAD_SMALL_RING && short_px < SMALL_RING_SHORT_MIN_PX) {
+    if (kind == PAD_SMALL_RING && short_side(&expected) < SMALL_RING_SHORT_MIN_PX) {
         return;
     }
     if (!whole && (context->options & DETECT_CLOSE) == 0U) {
