@@ -35,8 +35,10 @@ def photos(folder: str) -> dict[str, Path]:
         UserError: it is no folder, or holds none.
     """
     root = Path(folder)
-    if not folder or not root.is_dir():
-        raise UserError(f"{folder or 'nothing'} is not a folder; give the folder of your photos as FRAMES=folder.")
+    if not folder:
+        raise UserError("no photos are named; give their folder as FRAMES=folder.")
+    if not root.is_dir():
+        raise UserError(f"{folder} is not a folder; give the folder of your photos as FRAMES=folder.")
     files = sorted(path for path in root.rglob("*") if path.is_file() and path.suffix.lower() in PICTURE_SUFFIXES)
     if not files:
         raise UserError(f"{folder} holds no PNG or JPEG file; give the folder of your photos as FRAMES=folder.")

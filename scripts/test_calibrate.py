@@ -109,7 +109,7 @@ def test_too_few_or_the_wrong_photos(boards: Path, pads: Path, tmp_path: Path) -
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([], "is not a folder"),
+        ([], "no photos are named"),
         (["--frames", "/no/such/folder"], "/no/such/folder is not a folder"),
         (["--frames", "empty"], "holds no PNG or JPEG"),
         (["--frames", "boards", "--board", "9by6"], "give its inner corners"),
@@ -131,4 +131,4 @@ def test_make_calibrate_says_what_is_missing() -> None:
         [".venv/bin/python", "-m", "scripts.calibrate"], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert run.returncode == 1
-    assert run.stderr == "touchdown: nothing is not a folder; give the folder of your photos as FRAMES=folder.\n"
+    assert run.stderr == "touchdown: no photos are named; give their folder as FRAMES=folder.\n"
