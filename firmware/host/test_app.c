@@ -195,12 +195,38 @@ static void test_no_thresholds_yet(void)
     CHECK(app_min_area_px(&app) == first);
 }
 
+// Where the minimum area comes to rest without clutter.
+static uint32_t rest_at(uint32_t altitude_mm, uint32_t age_us)
+{
+    start();
+    scene_clear(&record);
+    record.header.flags = LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK;
+    record.header.altitude_mm = altitude_mm;
+    record.header.altitude_age_us = age_us;
+    for (int i = 0; i < 100; i++) {
+        give(0U);
+    }
+    return app_min_area_px(&app);
+}
+
+static void test_min_area_of_a_height(void)
+{
+    test_case("the LiDAR says how small a shape of the pad can be: 0.15 of the square's area below the camera");
+    CHECK(rest_at(1500U, 0U) == 50U);
+    CHECK(rest_at(1000U, 0U) == 114U);
+    CHECK(rest_at(500U, 0U) == 150U);
+    CHECK(rest_at(3000U, 0U) == 30U);
+    test_case("a reading that is too old says nothing");
+    CHECK(rest_at(500U, FUSION_LIDAR_MAX_AGE_US + 1U) == 30U);
+}
+
 void test_app(void)
 {
     test_full_wire();
     test_no_thresholds_yet();
     test_min_area();
     test_min_area_rests();
+    test_min_area_of_a_height();
     test_late_tick();
     test_rejected();
     test_frames_go_forward();
