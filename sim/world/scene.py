@@ -29,6 +29,7 @@ from sim.world.visibility import ShapeTruth, shapes_of
 _NARROWEST_RAY_DOWN = 0.03
 _MARGIN_PX = 4
 _LEAST_AREA_PX = 40.0
+_LEAST_WIDTH_PX = 7.0
 _WHOLE = 0.999
 
 
@@ -95,14 +96,16 @@ class SceneTruth:
 
     @property
     def visible_at_all(self) -> bool:
-        """Square and rectangle wholly inside the frame, covered by nothing, each at least 40 px large.
+        """Square and rectangle wholly inside the frame, covered by nothing, each at least 40 px large and 7 px wide.
 
         Less than this no detector can be asked for: without both there is no orientation that a part of another shape
-        could not fake. Light, blur, noise and contrast do not count here.
+        could not fake. What is thinner than about 6 px does not pass erosion and 5x5 median, however long it is.
+        Light, blur, noise and contrast do not count here.
         """
+        shapes = [self.shapes[name] for name in ("square", "rectangle")] if self.pad else []
         return self.pad and all(
-            self.shapes[name].share >= _WHOLE and self.shapes[name].area_px >= _LEAST_AREA_PX
-            for name in ("square", "rectangle")
+            shape.share >= _WHOLE and shape.area_px >= _LEAST_AREA_PX and shape.width_px >= _LEAST_WIDTH_PX
+            for shape in shapes
         )
 
 

@@ -279,12 +279,32 @@ def test_shares_of_a_pad_cut_by_the_frame() -> None:
 
 def test_a_pad_too_small_or_absent_is_not_visible_at_all() -> None:
     camera = Camera().scaled(2)
-    near, far = (render_scene(Scene(Pose(altitude), CLEAN, camera=camera))[1] for altitude in (2.0, 2.3))
-    # The square is 40 px large where 276 * 50 mm / altitude is its root: 2.18 m.
+    near, far = (render_scene(Scene(Pose(altitude), CLEAN, camera=camera))[1] for altitude in (1.9, 2.05))
+    # The square is 7 px wide where that is 276 * 50 mm / altitude: 1.97 m.
+    assert near.shapes["square"].width_px == pytest.approx(276 * 50 / 1900, rel=0.01)
     assert near.visible_at_all
     assert not far.visible_at_all
     _, absent = render_scene(Scene(POSE, CLEAN, pad=False))
     assert (absent.pad, absent.shapes, absent.visible_at_all) == (False, {}, False)
+
+
+def test_shapes_that_a_flat_view_makes_thin_are_not_visible_at_all() -> None:
+    # 0.6 m up, seen over the side at a slant: long enough and large enough, but too thin to pass the filters.
+    steep, slant = (render_scene(Scene(Pose(0.6, right, roll_deg=-40.0), CLEAN))[1] for right in (0.9, 1.7))
+    assert steep.visible_at_all
+    for shape in (steep.shapes["rectangle"], slant.shapes["rectangle"]):
+        assert shape.share == 1.0
+        assert shape.area_px > 100
+    assert slant.shapes["square"].area_px > 40
+    assert slant.shapes["square"].width_px < 7
+    assert not slant.visible_at_all
+
+
+@pytest.mark.parametrize("yaw", [0.0, 30.0, 90.0])
+def test_width_is_the_narrower_side_whichever_way_the_shape_lies(yaw: float) -> None:
+    _, truth = render_scene(Scene(Pose(1.0, pad_yaw_deg=yaw), CLEAN))
+    assert truth.shapes["square"].width_px == pytest.approx(0.552 * pad.SQUARE_SIDE_MM, rel=0.01)
+    assert truth.shapes["rectangle"].width_px == pytest.approx(0.552 * pad.RECTANGLE_HEIGHT_MM, rel=0.01)
 
 
 def test_without_pad_and_drawing_there_is_only_ground() -> None:

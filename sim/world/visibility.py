@@ -25,10 +25,13 @@ class ShapeTruth:
     Attributes:
         share: Share of its printed area that is inside the frame and under nothing.
         area_px: Area of the image of the whole shape, also of what is outside the frame or covered.
+        width_px: Narrower side of the box that spreads as the image of the whole shape does; of square and rectangle
+            the width that a filter meets.
     """
 
     share: float
     area_px: float
+    width_px: float
 
 
 def shapes_of(
@@ -55,7 +58,7 @@ def shapes_of(
             column, line = np.clip(np.rint(image).astype(int), 0, (camera.width - 1, camera.height - 1)).T
             seen *= 1.0 - frame_mask[line, column] / 255.0
         area = sum(sign * _area(project_pad(camera, pose, outline, curl)) for sign, outline in _outlines(shape))
-        result[name] = ShapeTruth(float(seen.mean()), area)
+        result[name] = ShapeTruth(float(seen.mean()), area, _width(image))
     return result
 
 
@@ -84,6 +87,11 @@ def _outlines(shape: Box | Ring) -> list[tuple[int, np.ndarray]]:
     turn = np.linspace(0, 2 * np.pi, 1000, endpoint=False)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
     return [(1, shape.outer * circle + (shape.x, shape.y)), (-1, shape.inner * circle + (shape.x, shape.y))]
+
+
+def _width(image: np.ndarray) -> float:
+    """A box of width w spreads across by w^2 / 12."""
+    return float(np.sqrt(12.0 * max(np.linalg.eigvalsh(np.cov(image.T))[0], 0.0)))
 
 
 def _area(outline: np.ndarray) -> float:
