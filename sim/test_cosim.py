@@ -243,6 +243,13 @@ def test_unusable_frames_are_one_sentence(
         run_cosim(frames, altitudes, firmware="host", out_dir=tmp_path)
 
 
+def test_what_the_autopilot_says_has_its_limits(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="65 bytes come with frame 1; give at most 64"):
+        run_cosim([FRAME] * 2, [1000] * 2, firmware="host", out_dir=tmp_path, from_autopilot=[b"", bytes(65)])
+    with pytest.raises(UserError, match="use FIRMWARE=host"):
+        run_cosim([FRAME], [1000], firmware="qemu", out_dir=tmp_path, from_autopilot=[bytes(1)])
+
+
 def test_unknown_firmware_is_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(UserError, match=r"^unknown firmware 'board'; choose one of: qemu, host\.$"):
         run_cosim([FRAME], [1000], firmware="board", out_dir=tmp_path)

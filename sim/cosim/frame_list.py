@@ -13,6 +13,7 @@ from scripts.errors import UserError
 MAGIC = b"TDF1"
 HEADER_BYTES = 20
 ALTITUDE_BYTES = 4
+MAX_MESSAGE_BYTES = 64
 MAX_WIDTH = 1280
 MAX_HEIGHT = 720
 MIN_SIDE = 16
@@ -47,7 +48,11 @@ def _checked(index: int, frame: np.ndarray, shape: tuple[int, ...] | None) -> np
 
 
 def write_frame_list(
-    path: Path, frames: Iterable[np.ndarray], altitudes_mm: Iterable[int], repeat: int = 1
+    path: Path,
+    frames: Iterable[np.ndarray],
+    altitudes_mm: Iterable[int],
+    repeat: int = 1,
+    from_autopilot: Iterable[bytes] = (),
 ) -> FrameList:
     """Write frames and their altitudes as they come; no more than one frame is held in memory.
 
@@ -56,15 +61,21 @@ def write_frame_list(
         frames: uint8 RGB, (height, width, 3), all of one size.
         altitudes_mm: what the LiDAR measures during each frame, in millimetres; 0 = no return.
         repeat: how often each frame is shown in a row.
+        from_autopilot: what the autopilot says before the record of each frame; none where these come to their end.
 
     Raises:
-        UserError: no frames, a frame of wrong shape or size, too few altitudes, or an altitude out of range.
+        UserError: no frames, a frame of wrong shape or size, too few altitudes, an altitude out of range, or too much
+            that the autopilot says.
     """
     if repeat < 1:
         raise UserError(f"repeat is {repeat}; show each frame at least once.")
     count = 0
     shape = None
     altitudes = iter(altitudes_mm)
+    messages = list(from_autopilot)
+    for index, message in enumerate(messages):
+        if len(message) > MAX_MESSAGE_BYTES:
+            raise UserError(f"{len(message)} bytes come with frame {index}; give at most {MAX_MESSAGE_BYTES}.")
     with path.open("wb") as file:
         file.write(bytes(HEADER_BYTES))
         for frame in frames:
@@ -80,6 +91,10 @@ def write_frame_list(
             count += 1
         if shape is None:
             raise UserError("there are no frames to show; give at least one.")
+        if any(messages):
+            for index in range(count):
+                message = messages[index] if index < len(messages) else b""
+                file.write(struct.pack(f"<I{MAX_MESSAGE_BYTES}s", len(message), message))
         file.seek(0)
         file.write(MAGIC + struct.pack("<4I", shape[1], shape[0], count, repeat))
     return FrameList(path, shape[1], shape[0], count, repeat)

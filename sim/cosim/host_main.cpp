@@ -82,8 +82,15 @@ private:
         landing_record record;
         board_.read_memory(RamBoard::RING_ADDRESS + head * LANDING_RING_STRIDE_BYTES,
                            reinterpret_cast<uint8_t*>(&record), sizeof record);
+        listen(record.header.frame_number - 1);
         touchdown_on_record(&record, sizeof record, now_us());
         adapt();
+    }
+
+    // On the board these bytes come at any time; here just before the record.
+    void listen(uint32_t index) {
+        const std::string said = frames_.from_autopilot(index);
+        touchdown_on_bytes(TOUCHDOWN_AUTOPILOT, reinterpret_cast<const uint8_t*>(said.data()), said.size(), now_us());
     }
 
     void adapt() {

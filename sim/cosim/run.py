@@ -72,6 +72,7 @@ def run_cosim(
     out_dir: Path = ROOT / "build" / "cosim" / "run",
     frame_period_us: int = 0,
     tail_us: int = 30_000,
+    from_autopilot: Iterable[bytes] = (),
     progress: Callable[[str], None] = _say,
 ) -> CosimResult:
     """Show frames to the verilated landing_core and run the firmware on what it finds.
@@ -84,6 +85,7 @@ def run_cosim(
         out_dir: where the run leaves its files; made if needed.
         frame_period_us: least time from frame to frame; 0 = what 720p60 blanking gives (16667 us at 1280x720).
         tail_us: simulated time after the last pixel.
+        from_autopilot: what the autopilot says on UART0 before the record of each frame; with firmware="host" alone.
         progress: is told in one line how far the run is.
 
     Raises:
@@ -91,6 +93,9 @@ def run_cosim(
     """
     if firmware not in FIRMWARES:
         raise UserError(f"unknown firmware '{firmware}'; choose one of: {', '.join(FIRMWARES)}.")
+    messages = list(from_autopilot)
+    if firmware == "qemu" and any(messages):
+        raise UserError("what the autopilot says does not reach QEMU; use FIRMWARE=host for it.")
     out_dir = out_dir.resolve()
     if "," in str(out_dir):
         raise UserError(f"the output folder {out_dir} has a comma in its name; choose one without.")
@@ -99,7 +104,7 @@ def run_cosim(
         (out_dir / name).unlink(missing_ok=True)
     if firmware == "qemu":
         find_qemu()
-    frame_list = write_frame_list(out_dir / "frames.tdf", frames, altitudes_mm, repeat)
+    frame_list = write_frame_list(out_dir / "frames.tdf", frames, altitudes_mm, repeat, messages)
     progress(f"co-simulation: building what is missing (firmware: {firmware})")
     command = _command(firmware, frame_list, out_dir, frame_period_us, tail_us)
     progress(f"co-simulation: {frame_list.shown} frames of {frame_list.width}x{frame_list.height}")

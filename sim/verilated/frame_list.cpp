@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -38,8 +39,11 @@ FrameList::FrameList(const std::string& path) {
     count_ = word(data_ + 12);
     repeat_ = word(data_ + 16);
     frame_bytes_ = sizeof(uint32_t) + size_t{3} * width_ * height_;
+    const size_t frames_end = HEADER_BYTES + count_ * frame_bytes_;
+    const size_t messages_end = frames_end + count_ * (sizeof(uint32_t) + MESSAGE_BYTES);
+    if (size_ == messages_end) messages_ = data_ + frames_end;
     if (std::memcmp(data_, "TDF1", 4) != 0 || width_ == 0 || height_ == 0 || count_ == 0 || repeat_ == 0 ||
-        size_ != HEADER_BYTES + count_ * frame_bytes_) {
+        (size_ != frames_end && size_ != messages_end)) {
         munmap(const_cast<uint8_t*>(data_), size_);
         throw std::runtime_error("the frame list " + path + " is damaged: make it again.");
     }
@@ -52,5 +56,11 @@ const uint8_t* FrameList::frame(uint32_t index) const {
 }
 
 uint32_t FrameList::altitude_mm(uint32_t index) const { return word(frame(index)); }
+
+std::string FrameList::from_autopilot(uint32_t index) const {
+    if (messages_ == nullptr || index >= shown()) return {};
+    const uint8_t* at = messages_ + index / repeat_ * (sizeof(uint32_t) + MESSAGE_BYTES);
+    return {reinterpret_cast<const char*>(at + sizeof(uint32_t)), std::min<size_t>(word(at), MESSAGE_BYTES)};
+}
 
 }  // namespace touchdown
