@@ -7,6 +7,8 @@ from pathlib import Path
 
 from pymavlink.dialects.v20 import common as mavlink
 
+from golden.generated.landing_regs import THRESHOLD_FACTOR_MASK, THRESHOLD_FACTOR_SHIFT
+
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "firmware"
 AUTOPILOT, GROUND = 0, 1
@@ -46,6 +48,12 @@ def decode(data: bytes) -> list[mavlink.MAVLink_message]:
     return messages
 
 
+def attitude_bytes(roll_rad: float, pitch_rad: float, now_us: int = 0) -> bytes:
+    """An ATTITUDE as the autopilot sends it: right side down and nose up are positive."""
+    message = mavlink.MAVLink_attitude_message(now_us // 1000 % 2**32, roll_rad, pitch_rad, 0.0, 0.0, 0.0, 0.0)
+    return bytes(message.pack(mavlink.MAVLink(None, srcSystem=1, srcComponent=1)))
+
+
 class Firmware:
     """One run of the core. A new instance starts anew; only the newest may be used.
 
@@ -71,9 +79,8 @@ class Firmware:
         self._library.touchdown_on_bytes(link, data, ctypes.c_size_t(len(data)), ctypes.c_uint64(now_us))
 
     def attitude(self, roll_rad: float, pitch_rad: float, now_us: int = 0) -> None:
-        """Hand over an ATTITUDE of the autopilot: right side down and nose up are positive."""
-        message = mavlink.MAVLink_attitude_message(now_us // 1000 % 2**32, roll_rad, pitch_rad, 0.0, 0.0, 0.0, 0.0)
-        self.on_bytes(AUTOPILOT, message.pack(mavlink.MAVLink(None, srcSystem=1, srcComponent=1)), now_us)
+        """Hand over an ATTITUDE of the autopilot."""
+        self.on_bytes(AUTOPILOT, attitude_bytes(roll_rad, pitch_rad, now_us), now_us)
 
     def tick(self, now_us: int, lidar_mm: int | None = 1000, age_us: int = 0) -> None:
         """Let time pass. `lidar_mm` None: the LiDAR has no valid reading."""
@@ -94,6 +101,11 @@ class Firmware:
     def threshold(self) -> int:
         """What the firmware would now write into THRESHOLD: factor and flat limit."""
         return self._library.touchdown_threshold()
+
+    @property
+    def factor(self) -> int:
+        """The factor in it, Q1.8."""
+        return (self.threshold & THRESHOLD_FACTOR_MASK) >> THRESHOLD_FACTOR_SHIFT
 
     def take(self, link: int) -> list[mavlink.MAVLink_message]:
         """Messages sent on a link since the last call."""

@@ -22,9 +22,10 @@ _RING_SIDE = (0.6, 1.5)
 _RING_RATIO = 12.0
 _ALONE = 2.0
 _LIKE = (0.6, 1.5)
+_ABSENT = "absent"
 
 
-def shapes_seen(objects: np.ndarray, truth: Reference, lidar_m: float) -> str:
+def shapes_seen(objects: np.ndarray, truth: Reference, lidar_m: float, min_area_px: int) -> str:
     """Which shapes are in the record as they should be, and which are not.
 
     A shape is sought where the true centre, the true angle and the distance put it; its area is compared with that of
@@ -34,6 +35,7 @@ def shapes_seen(objects: np.ndarray, truth: Reference, lidar_m: float) -> str:
         objects: `OBJECT_DTYPE`.
         truth: With centre and angle.
         lidar_m: Where the truth gives no distance.
+        min_area_px: MIN_AREA of the record, which takes away what is smaller.
     """
     if truth.x_px is None or truth.y_px is None or truth.angle_deg is None:
         return ""
@@ -49,7 +51,10 @@ def shapes_seen(objects: np.ndarray, truth: Reference, lidar_m: float) -> str:
     for name, place in places.items():
         # A shape alone in its place has not joined another one, however far its box reaches.
         alone = np.any([near[other] & (ratios[other] < _ALONE) for other in places if other != name], axis=0)
-        words.append(f"{name} {_inner(ratios[name][near[name] | (_around(objects, place) & ~alone)])}")
+        said = _inner(ratios[name][near[name] | (_around(objects, place) & ~alone)])
+        area_px = _INNER[name][1] * scale**2
+        small = said == _ABSENT and area_px < min_area_px
+        words.append(f"{name} {said}{f' (its {area_px:.0f} px are less than MIN_AREA)' * small}")
     return ", ".join(words)
 
 
@@ -74,7 +79,7 @@ def _around(objects: np.ndarray, place: np.ndarray) -> np.ndarray:
 def _inner(ratios: np.ndarray) -> str:
     # More than that is the ring, whose box holds everything.
     ratios = ratios[ratios < _RING_RATIO]
-    return _like(float(ratios[np.argmin(np.abs(np.log(ratios)))])) if ratios.size else "absent"
+    return _like(float(ratios[np.argmin(np.abs(np.log(ratios)))])) if ratios.size else _ABSENT
 
 
 def _like(ratio: float) -> str:

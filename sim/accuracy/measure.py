@@ -41,7 +41,7 @@ def rows_of(film: Film, seen: Sequence[Seen]) -> list[Row]:
             min_area_px=int(header["min_area"]),
         )
         if row.missed:
-            row = replace(row, shapes=shapes_seen(one.objects, reference, shot.lidar_m))
+            row = replace(row, shapes=shapes_seen(one.objects, reference, shot.lidar_m, row.min_area_px))
         rows.append(row)
     return rows
 

@@ -5,9 +5,8 @@ import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from itertools import pairwise
 from pathlib import Path
-
-import numpy as np
 
 from golden.chain import Settings
 from scripts.demo_results import Pad
@@ -15,7 +14,7 @@ from scripts.errors import UserError
 from sim.accuracy.measure import rows_of
 from sim.accuracy.metrics import Summary, summarise
 from sim.accuracy.paper_rules import find_pad
-from sim.accuracy.paths import golden, shown_objects
+from sim.accuracy.paths import Objects, golden, shown
 from sim.accuracy.rows import Row
 from sim.accuracy.shots import Film, Unit, develop
 
@@ -33,12 +32,14 @@ class Variant:
         paper: By the paper's rules, not the firmware's.
         settings: Registers.
         options: Mask for the firmware's detection; None = all it can do.
+        attitude: The autopilot says how the drone lies.
     """
 
     name: str
     paper: bool
     settings: Settings
     options: int | None
+    attitude: bool = True
 
 
 def load_variants(path: Path = OPTIONS, header: Path = DETECT) -> list[Variant]:
@@ -50,7 +51,7 @@ def load_variants(path: Path = OPTIONS, header: Path = DETECT) -> list[Variant]:
     bits = {name: int(value) for name, value in re.findall(r"#define (DETECT_\w+) (\d+)U", header.read_text())}
     variants = []
     for table in tomllib.loads(path.read_text(encoding="utf-8"))["variant"]:
-        known = {"name", "rules", "without"}
+        known = {"name", "rules", "without", "attitude"}
         if unknown := set(table) - known - _REGISTERS:
             raise UserError(f"{path.name} has {min(unknown)}, which is no register of golden/chain.py; mend it.")
         without = table.get("without", [])
@@ -60,29 +61,32 @@ def load_variants(path: Path = OPTIONS, header: Path = DETECT) -> list[Variant]:
             )
         registers = {name: value for name, value in table.items() if name not in known}
         options = bits["DETECT_ALL"] & ~sum(bits[name] for name in without) if without else None
-        variants.append(Variant(table["name"], table.get("rules") == "paper", Settings(**registers), options))
+        paper, attitude = table.get("rules") == "paper", table.get("attitude", True)
+        variants.append(Variant(table["name"], paper, Settings(**registers), options, attitude))
     return variants
 
 
 def compare(unit: Unit, variants: Sequence[Variant]) -> list[list[Row]]:
     """Rows of a unit, by variant. It is drawn once, and labelled once for all variants with the same registers."""
     film = develop(unit)
-    objects = {settings: list(shown_objects(film, settings)) for settings in {_chain(one) for one in variants}}
+    objects = {settings: Objects(film, settings) for settings in {_chain(one) for one in variants}}
     return [_rows(film, variant, objects[_chain(variant)]) for variant in variants]
 
 
 def _chain(variant: Variant) -> Settings:
-    """The registers that objects of every size depend on."""
-    return replace(variant.settings, min_area=0)
+    """The registers that objects of every size depend on, with any factor."""
+    return replace(variant.settings, min_area=0, factor=0)
 
 
-def _rows(film: Film, variant: Variant, objects: Sequence[np.ndarray]) -> list[Row]:
+def _rows(film: Film, variant: Variant, objects: Objects) -> list[Row]:
     if not variant.paper:
-        return rows_of(film, golden(film, variant.settings, variant.options, objects).seen)
+        return rows_of(film, golden(film, variant.settings, variant.options, objects, variant.attitude).seen)
     # The last showings count, one a shot.
-    shown = objects[-len(film.images) :]
+    order = shown(film)[-len(film.images) - 1 :]
     rows = []
-    for shot, reference, every in zip(film.unit.shots, film.references, shown, strict=True):
+    for before, now in pairwise(order):
+        shot, reference = film.unit.shots[now], film.references[now]
+        every = objects.of(now, before, variant.settings.factor)
         # No limit to their number: that is the hardware's, not the paper's.
         kept = every[every["area"] >= variant.settings.min_area]
         found = find_pad(kept, shot.lidar_m)

@@ -4,30 +4,26 @@
 Both end in the same record, decoded by the same code, so that they can be compared message by message.
 """
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
-from firmware.library import AUTOPILOT, GROUND, Firmware
+from firmware.library import AUTOPILOT, GROUND, Firmware, attitude_bytes
 from golden import result_writer
 from golden.chain import Settings, run_chain
+from golden.gaussian5x5 import gaussian5x5
 from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_DTYPE
+from golden.rgb2gray import rgb2gray
+from golden.threshold_stats import threshold_stats
 from scripts.demo_decode import Line, decode
 from scripts.demo_results import Row as Seen
 from scripts.demo_results import collect
 from scripts.frames import HEIGHT, WIDTH
-from sim.accuracy.shots import Film
+from sim.accuracy.shots import Film, Shot
 from sim.cosim.result import Frame
 from sim.cosim.run import run_cosim
 
-SHOWINGS = 9
-"""How often an independent picture is shown; the last time counts.
-
-The first showing has no thresholds. From the second on the firmware moves MIN_AREA from 100 px towards 30 (few shapes)
-or 150 (too many), where it is by the eighth showing; a test sees that it then stays.
-"""
 FRAME_NS = 50_000_000 / 3
 FIRST_FRAME_NS = 3_800_000
 SCAN_NS = 16_072_000
@@ -51,11 +47,11 @@ class Answer:
     seen: list[Seen]
 
 
-def _shown(film: Film) -> list[int]:
+def shown(film: Film) -> list[int]:
     """Which of its shots the camera shows, one after the other."""
     count = len(film.images)
     # A clip's first frame primes the thresholds, as in the demo.
-    return [0, *range(count)] if film.unit.clip else [0] * SHOWINGS
+    return [0, *range(count)] if film.unit.clip else [0] * film.unit.showings
 
 
 def _answer(film: Film, frames: list[Frame], autopilot: Line, ground: Line) -> Answer:
@@ -64,53 +60,67 @@ def _answer(film: Film, frames: list[Frame], autopilot: Line, ground: Line) -> A
     return Answer(frames, autopilot, ground, collect(film.frames, counted, frames, autopilot, ground))
 
 
-def shown_objects(film: Film, settings: Settings) -> Iterator[np.ndarray]:
-    """The objects of each showing, of every size, in the order of the hardware.
+class Objects:
+    """What the hardware finds in a film, of every size and in its order; computed once, when it is first asked for.
 
-    A picture that is shown again differs in nothing but the registers, so it is computed once.
+    Args:
+        film: What is shown.
+        settings: Registers; the factor is given with each question, and MIN_AREA has no part in it.
     """
-    every = replace(settings, min_area=0)
-    # Without thresholds everything is bright, and no settings in use make that an object.
-    yield np.zeros(0, OBJECT_DTYPE)
-    before = run_chain(film.images[0], None, every).stats
-    if not film.unit.clip:
-        objects = run_chain(film.images[0], before, every).objects
-        yield from [objects] * (SHOWINGS - 1)
-        return
-    for image in film.images:
-        stages = run_chain(image, before, every)
-        yield stages.objects
-        before = stages.stats
+
+    def __init__(self, film: Film, settings: Settings) -> None:
+        self._images = film.images
+        self._settings = replace(settings, min_area=0)
+        self._known: dict[tuple[int, int, int], np.ndarray] = {}
+
+    def of(self, shot: int, before: int, factor: int) -> np.ndarray:
+        """Objects of a shot with the thresholds of the shot before it, made with that factor."""
+        key = (shot, before, factor)
+        if key not in self._known:
+            smooth = gaussian5x5(rgb2gray(self._images[before]))
+            stats = threshold_stats(smooth, factor, flat_limit=self._settings.flat_limit)
+            self._known[key] = run_chain(self._images[shot], stats, self._settings).objects
+        return self._known[key]
 
 
 def golden(
     film: Film,
     settings: Settings | None = None,
     options: int | None = None,
-    objects: Iterable[np.ndarray] | None = None,
+    objects: Objects | None = None,
+    attitude: bool = True,
 ) -> Answer:
     """The golden models and the firmware's C in this process.
 
-    What the firmware writes to MIN_AREA after one record counts from the next frame on: the record is there 0.1 ms
-    after a frame's last pixel, and the next frame, which takes its registers with its first pixel, comes after 0.67 ms.
+    What the firmware writes to MIN_AREA and THRESHOLD after one record counts from the next frame on: the record is
+    there 0.1 ms after a frame's last pixel, and the next frame, which takes its registers with its first pixel, comes
+    after 0.67 ms. Thresholds serve the frame after the one with whose factor they were made.
 
     Args:
         film: What is shown.
-        settings: Registers other than the firmware's; MIN_AREA is the firmware's all the same.
+        settings: Registers other than the firmware's; MIN_AREA is the firmware's all the same, and so is the factor
+            unless it is another than the one with which the firmware starts.
         options: What the firmware's detection may do, a mask; default is what the firmware starts with.
-        objects: What `shown_objects` gives for these, where it is known already.
+        objects: Where some of them are known already for these settings.
+        attitude: False leaves out what the autopilot says.
     """
     settings = settings or Settings()
     firmware = Firmware()
     if options is not None:
         firmware.set_options(options)
+    objects = objects or Objects(film, settings)
+    own_factor = settings.factor == Settings.factor
     sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
-    frames = []
-    objects = shown_objects(film, settings) if objects is None else objects
-    for index, (shown, every) in enumerate(zip(_shown(film), objects, strict=True)):
-        shot = film.unit.shots[shown]
+    frames: list[Frame] = []
+    order = shown(film)
+    # Without thresholds everything is bright, and no settings in use make that an object.
+    every = np.zeros(0, OBJECT_DTYPE)
+    for index, number in enumerate(order):
+        shot = film.unit.shots[number]
         first_ns = FIRST_FRAME_NS + round(index * FRAME_NS)
         last_ns = first_ns + SCAN_NS
+        if index:
+            every = objects.of(number, order[index - 1], int(frames[-1].record["header"]["threshold_factor"]))
         values = {
             "frame_number": index + 1,
             "start_time_us": first_ns // 1000,
@@ -119,12 +129,14 @@ def golden(
             "altitude_valid": 1,
             "frame_size_width": WIDTH,
             "frame_size_height": HEIGHT,
-            "threshold_factor": settings.factor,
+            "threshold_factor": firmware.factor if own_factor else settings.factor,
             "min_area": firmware.min_area_px,
             "thresholds_missing": int(index == 0),
         }
         record = result_writer.record(values, every[every["area"] >= firmware.min_area_px])
-        error = firmware.on_record(record, (last_ns + RECORD_NS) // 1000)
+        now_us = (last_ns + RECORD_NS) // 1000
+        firmware.on_bytes(AUTOPILOT, from_autopilot(shot) if attitude else b"", now_us)
+        error = firmware.on_record(record, now_us)
         if error != 0:
             raise RuntimeError(f"the firmware refuses the record of {shot.name} with {error}")
         for link, data in firmware.sent.items():
@@ -133,6 +145,11 @@ def golden(
         frames.append(Frame(index, first_ns, last_ns, _whole(record), last_ns + RECORD_NS))
     lines = {link: decode(bytes(data), [0] * len(data)) for link, data in sent.items()}
     return _answer(film, frames, lines[AUTOPILOT], lines[GROUND])
+
+
+def from_autopilot(shot: Shot) -> bytes:
+    """What the autopilot says before the record of a shot."""
+    return attitude_bytes(*shot.attitude_rad) if shot.attitude_rad else b""
 
 
 def _whole(record: bytes) -> np.void:
@@ -147,9 +164,11 @@ def rtl(film: Film, out_dir: Path) -> Answer:
         film: What is shown.
         out_dir: Where the run leaves its files; a folder of its own.
     """
+    shots = [film.unit.shots[number] for number in shown(film)]
     result = run_cosim(
-        (film.images[shown] for shown in _shown(film)),
-        [round(1000 * film.unit.shots[shown].lidar_m) for shown in _shown(film)],
+        (film.images[number] for number in shown(film)),
+        [round(1000 * shot.lidar_m) for shot in shots],
+        from_autopilot=[from_autopilot(shot) for shot in shots],
         firmware="host",
         out_dir=out_dir,
         progress=lambda _text: None,

@@ -1,31 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rendered sets: the corpora of `sim.world.corpus`, each with its exact truth."""
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from scripts.errors import UserError
 from sim.accuracy.rows import Reference
-from sim.accuracy.shots import Shot, Unit
+from sim.accuracy.shots import SHOWINGS, SHOWINGS_OF_A_SECOND, Shot, Unit
 from sim.world.corpus import NAMES, corpus
 from sim.world.pose import camera_from_level, truth_of
 from sim.world.scene import Scene, render_scene
 
 SWEEP = "sweep:"
-CLIPS = {"descent", "light_step"}
+BLINDED = "blinded"
+CLIPS = {"descent", "light_step", BLINDED}
 COUNTS = {
-    "sharp": 200,
-    "typical": 300,
-    "border": 200,
-    "metric": 200,
+    "sharp": 100,
+    "typical": 200,
+    "border": 100,
+    "metric": 100,
     "negatives": 5000,
-    "descent": 120,
+    "descent": 84,
     "light_step": 40,
+    BLINDED: 84,
 }
-SWEEP_COUNT = 20
-SETS = NAMES
+SWEEP_COUNT = 8
+SETS = (*NAMES, BLINDED)
+ATTITUDE_SIGMA_DEG = 0.4
+BLINDED_EVERY = 12
+BLINDED_EV = 8.0
 
 
 def rendered_units(name: str, count: int | None = None) -> list[Unit]:
@@ -40,10 +47,14 @@ def rendered_units(name: str, count: int | None = None) -> list[Unit]:
     """
     if name not in SETS:
         raise UserError(f"there is no rendered set '{name}'; choose from: {', '.join(SETS)}.")
-    scenes = corpus(name, count or COUNTS.get(name, SWEEP_COUNT))
+    source = "descent" if name == BLINDED else name
+    scenes = corpus(source, count or COUNTS.get(name, SWEEP_COUNT))
+    if name == BLINDED:
+        scenes = _blinded(scenes)
     if name in CLIPS:
         return [Unit(name, tuple(_shots(scenes)), clip=True)]
-    return [Unit(name, (shot,)) for shot in _shots(scenes)]
+    showings = SHOWINGS_OF_A_SECOND if name.startswith(SWEEP) else SHOWINGS
+    return [Unit(name, (shot,), showings=showings) for shot in _shots(scenes)]
 
 
 def _shots(scenes: Iterator[Scene]) -> Iterator[Shot]:
@@ -53,7 +64,23 @@ def _shots(scenes: Iterator[Scene]) -> Iterator[Shot]:
             draw=partial(draw, scene),
             lidar_m=truth_of(scene.camera, scene.pose).lidar_m,
             strength=scene.strength if scene.corpus.startswith(SWEEP) else None,
+            attitude_rad=_attitude_rad(scene, index if scene.corpus in CLIPS else 0),
         )
+
+
+def _blinded(scenes: Iterator[Scene]) -> Iterator[Scene]:
+    """One frame in some is all white. The one after it has its thresholds, so that two in a row show nothing."""
+    for index, scene in enumerate(scenes):
+        blind = index % BLINDED_EVERY == BLINDED_EVERY - 1
+        bad = replace(scene.disturbances, exposure_ev=BLINDED_EV) if blind else scene.disturbances
+        yield replace(scene, disturbances=bad)
+
+
+def _attitude_rad(scene: Scene, frame: int) -> tuple[float, float]:
+    """Roll and pitch as an autopilot knows them, the same error at every strength of a sweep."""
+    off_deg = np.random.default_rng([scene.seed, 40, frame]).normal(0.0, ATTITUDE_SIGMA_DEG, 2)
+    roll_deg, pitch_deg = np.add((scene.pose.roll_deg, scene.pose.pitch_deg), off_deg)
+    return math.radians(roll_deg), math.radians(pitch_deg)
 
 
 def draw(scene: Scene) -> tuple[np.ndarray, Reference]:

@@ -10,6 +10,15 @@ from scripts.frames import FrameSet
 from sim.accuracy.rows import Reference
 from sim.world.pose import Truth
 
+SHOWINGS = 9
+"""How often an independent picture is shown; the last time counts.
+
+The first showing has no thresholds. From the second on the firmware moves MIN_AREA from 100 px towards 30 (few shapes)
+or 150 (too many), where it is by the eighth showing; a test sees that it then stays.
+"""
+SHOWINGS_OF_A_SECOND = 60
+"""Enough for every threshold factor that the firmware tries while it sees no pad, and for the usual one again."""
+
 
 @dataclass(frozen=True)
 class Shot:
@@ -21,6 +30,7 @@ class Shot:
         lidar_m: What the LiDAR measures.
         difficulty: What the reference calls it; "-" where it does not.
         strength: How strong the set's disturbance is.
+        attitude_rad: Roll and pitch as the autopilot says before the record of the frame; None = it says nothing.
     """
 
     name: str
@@ -28,6 +38,7 @@ class Shot:
     lidar_m: float
     difficulty: str = "-"
     strength: float | None = None
+    attitude_rad: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -38,11 +49,13 @@ class Unit:
         set: Name of the set.
         shots: The frames in order.
         clip: Each frame follows the one before; else there is one frame, shown until everything has settled.
+        showings: How often a picture is shown.
     """
 
     set: str
     shots: tuple[Shot, ...]
     clip: bool = False
+    showings: int = SHOWINGS
 
     def __post_init__(self) -> None:
         if not self.shots or (len(self.shots) > 1 and not self.clip):

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The golden path says what the RTL path says, message by message; MIN_AREA settles; the rules of the paper."""
+"""The golden path says what the RTL path says; what settles before a picture counts; attitude; the variants."""
 
+import math
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -15,9 +18,11 @@ from scripts.errors import UserError
 from sim.accuracy.measure import measure_golden
 from sim.accuracy.options import compare, lines, load_variants
 from sim.accuracy.paper_rules import find_pad, ring_width_px
-from sim.accuracy.paths import SHOWINGS, Answer, golden, rtl
+from sim.accuracy.paths import Answer, golden, rtl
+from sim.accuracy.photos import photo_units
+from sim.accuracy.rendered import rendered_units
 from sim.accuracy.rows import Reference, Row
-from sim.accuracy.shots import Film, Shot, Unit, develop
+from sim.accuracy.shots import SHOWINGS, SHOWINGS_OF_A_SECOND, Film, Shot, Unit, develop
 from sim.cosim.build import build_host
 from sim.views import views
 from sim.world.camera import Camera
@@ -25,6 +30,8 @@ from sim.world.clip import demo_clip
 from sim.world.pose import Pose, truth_of
 from sim.world.renderer import Look, render
 
+SHADOW = 0.5
+UNTRACKED = "production without the tracker"
 TIMES = {"start_time_us", "scan_time_us", "altitude_age_us"}
 
 
@@ -39,7 +46,8 @@ def drawn(pose: Pose, look: Look, seed: int) -> tuple[np.ndarray, Reference]:
 
 
 def shot(name: str, pose: Pose, look: Look, seed: int) -> Shot:
-    return Shot(name, partial(drawn, pose, look, seed), truth_of(Camera(), pose).lidar_m)
+    attitude_rad = (math.radians(pose.roll_deg), math.radians(pose.pitch_deg))
+    return Shot(name, partial(drawn, pose, look, seed), truth_of(Camera(), pose).lidar_m, attitude_rad=attitude_rad)
 
 
 def descent() -> Film:
@@ -83,6 +91,16 @@ def test_golden_and_rtl_say_the_same_of_a_clip(tmp_path: Path) -> None:
 
 
 @pytest.mark.full
+def test_golden_and_rtl_say_the_same_while_factors_are_tried(tmp_path: Path) -> None:
+    build_host()
+    film = shadowed(26)
+    one, other = golden(film), rtl(film, tmp_path)
+    assert len(set(factors(one))) > 1
+    assert factors(one) == factors(other)
+    assert_same(one, other)
+
+
+@pytest.mark.full
 @pytest.mark.parametrize("index", range(4))
 def test_golden_and_rtl_say_the_same_of_a_picture(index: int, tmp_path: Path) -> None:
     build_host()
@@ -94,18 +112,81 @@ def test_golden_and_rtl_say_the_same_of_a_picture(index: int, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("image", [np.full((720, 1280, 3), 90, np.uint8), None])
-def test_min_area_has_settled_when_a_picture_counts(image: np.ndarray | None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_min_area_has_settled_when_a_picture_counts(image: np.ndarray | None) -> None:
     if image is None:
         # Specks of 160 px, more than a record holds: MIN_AREA goes the other way.
         image = np.full((720, 1280, 3), 220, np.uint8)
         for x in range(20, 1260, 40):
             for y in range(20, 700, 40):
                 image[y : y + 13, x : x + 13] = 30
-    film = develop(Unit("s", (Shot("a", lambda: (image, Reference()), 1.0),)))
-    monkeypatch.setattr("sim.accuracy.paths.SHOWINGS", SHOWINGS + 3)
+    film = develop(Unit("s", (Shot("a", lambda: (image, Reference()), 1.0),), showings=SHOWINGS + 3))
     seen = [int(frame.record["header"]["min_area"]) for frame in golden(film).frames]
     assert len(set(seen)) > 1
     assert len(set(seen[SHOWINGS - 1 :])) == 1, seen
+
+
+def shadowed(showings: int) -> Film:
+    """A pad half of which lies in a shadow that the usual threshold factor does not see through."""
+    (unit,) = (one for one in rendered_units("sweep:shadow_edge", 1) if one.shots[0].strength == SHADOW)
+    return develop(replace(unit, showings=showings))
+
+
+def factors(answer: Answer) -> list[int]:
+    """What the frames were told."""
+    return [int(frame.record["header"]["threshold_factor"]) for frame in answer.frames]
+
+
+def test_the_golden_path_takes_the_factor_that_the_firmware_asks_for() -> None:
+    film = shadowed(SHOWINGS_OF_A_SECOND)
+    answer = golden(film)
+    told = factors(answer)
+    assert told[:18] == [128] * 18
+    assert told[18] == 96
+    assert answer.seen[0].pad is not None
+    assert told[-1] != 128
+    assert golden(replace(film, unit=replace(film.unit, showings=SHOWINGS))).seen[0].pad is None
+    assert set(factors(golden(film, Settings(factor=64)))) == {64}
+
+
+def test_a_second_shows_every_factor_and_the_usual_one_again() -> None:
+    blank = Shot("a", lambda: (np.full((720, 1280, 3), 90, np.uint8), Reference()), 1.0)
+    told = factors(golden(develop(Unit("s", (blank,), showings=SHOWINGS_OF_A_SECOND))))
+    assert set(told[:37]) == {128, 96, 72, 160}
+    assert told[36:54] == [128] * 18
+
+
+def test_rendered_frames_have_an_attitude_that_is_nearly_right_and_photographs_none(tmp_path: Path) -> None:
+
+    def errors_deg(name: str, count: int) -> np.ndarray:
+        shots = [one for unit in rendered_units(name, count) for one in unit.shots]
+        poses = [one.draw.args[0].pose for one in shots]
+        return np.degrees([one.attitude_rad for one in shots]) - [(pose.roll_deg, pose.pitch_deg) for pose in poses]
+
+    off = errors_deg("sharp", 80)
+    assert abs(off.mean()) < 0.12
+    assert off.std() == pytest.approx(0.4, rel=0.2)
+    assert errors_deg("descent", 3)[0] != pytest.approx(errors_deg("descent", 3)[1])
+    assert np.ptp(errors_deg("sweep:tilt", 1), axis=0) == pytest.approx(0.0)
+    cv2.imwrite(str(tmp_path / "a.png"), np.zeros((720, 1280, 3), np.uint8))
+    assert photo_units(str(tmp_path), "1.0")[0].shots[0].attitude_rad is None
+
+
+def test_attitude_reaches_the_firmware() -> None:
+    """An attitude that is wrong by 20 degrees moves the centre, and is left out where it is to be."""
+    film = descent()
+    shots = tuple(replace(one, attitude_rad=(0.35, 0.0)) for one in film.unit.shots)
+    wrong = replace(film, unit=replace(film.unit, shots=shots))
+    assert said(golden(film).ground) != said(golden(wrong).ground)
+    assert said(golden(film, attitude=False).ground) == said(golden(wrong, attitude=False).ground)
+
+
+def test_a_blinded_clip_is_bridged_by_the_tracker() -> None:
+    (unit,) = rendered_units("blinded")
+    unit = replace(unit, shots=unit.shots[:16])
+    variants = [variant for variant in load_variants() if variant.name in ("production", UNTRACKED)]
+    tracked, untracked = ([row.name for row in rows if row.missed] for rows in compare(unit, variants))
+    assert untracked == ["0011", "0012"]
+    assert tracked == []
 
 
 def test_a_picture_counts_after_it_has_settled_and_a_clip_frame_by_frame() -> None:
