@@ -99,8 +99,8 @@ static bool has_whole_pair(const struct reading *reading)
 // The view explains all shapes together; near the centre the shapes that are
 // there know better, as paper is curled and shutters roll. What they leave over
 // moves the centre, each by its weight.
-static void centre_of(const struct detect_context *context, const struct pad_plane *plane, const struct reading *reading,
-                      struct pad_estimate *pad)
+static void centre_of(const struct detect_context *context, const struct pad_plane *plane,
+                      const struct reading *reading, struct pad_estimate *pad)
 {
     double weight = 0.0;
     double x = 0.0;
@@ -191,7 +191,8 @@ static bool mirror(const struct detect_context *context, struct pad_view *view)
         camera_direction(context->camera, view->value[PAD_X_PX], view->value[PAD_Y_PX], direction) != 0) {
         return false;
     }
-    const double along = plane.normal[0] * direction[0] + plane.normal[1] * direction[1] + plane.normal[2] * direction[2];
+    const double along =
+        plane.normal[0] * direction[0] + plane.normal[1] * direction[1] + plane.normal[2] * direction[2];
     const double z = 2.0 * along * direction[2] - plane.normal[2];
     if (!(z > 0.3)) {
         return false;
@@ -235,7 +236,8 @@ static int try_view(const struct detect_context *context, const struct hypothesi
     if (pad->misfit > MIRROR_MISFIT && reading.evidence.count >= 3) {
         struct pad_estimate other = {.view = pad->view};
         struct reading mirrored;
-        if (mirror(context, &other.view) && fit(context, hypothesis->fused, &other.view, &mirrored, &other.misfit, &worst) == 0) {
+        if (mirror(context, &other.view) &&
+            fit(context, hypothesis->fused, &other.view, &mirrored, &other.misfit, &worst) == 0) {
             other.doubt = doubt_of(context, &mirrored, &other.view, other.misfit, worst);
             if (other.doubt >= 0.0 && (pad->doubt < 0.0 || other.doubt < pad->doubt)) {
                 *pad = other;

@@ -58,7 +58,8 @@ static bool far_enough(const struct detect_context *context, const struct readin
 {
     struct pad_plane plane;
 
-    if ((context->options & DETECT_FAR) == 0U || context->hint->tilt.sigma > ATTITUDE_SIGMA || reading->ring_width_px > FAR_RING_WIDTH_PX ||
+    if ((context->options & DETECT_FAR) == 0U || context->hint->tilt.sigma > ATTITUDE_SIGMA ||
+        reading->ring_width_px > FAR_RING_WIDTH_PX ||
         pad_plane_of(view, context->camera, &plane) != 0) {
         return false;
     }
@@ -67,7 +68,8 @@ static bool far_enough(const struct detect_context *context, const struct readin
 }
 
 // How far the view is from being believed; a negative number if it cannot be at all.
-double doubt_of(const struct detect_context *context, const struct reading *reading, const struct pad_view *view, double misfit, double worst)
+double doubt_of(const struct detect_context *context, const struct reading *reading, const struct pad_view *view,
+                double misfit, double worst)
 {
     const double tilt = fmax(fabs(view->value[PAD_TILT_X]), fabs(view->value[PAD_TILT_Y]));
     const double share = fmin(reading->ring_share, 1.0);

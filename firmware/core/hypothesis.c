@@ -243,7 +243,8 @@ static bool is_far(const struct shape *rectangle, double seen_m, double height_m
 }
 
 static void consider_pair(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
-                          uint32_t options, const struct shape *square, const struct shape *rectangle, struct hypotheses *found)
+                          uint32_t options, const struct shape *square, const struct shape *rectangle,
+                          struct hypotheses *found)
 {
     const struct vector line = shape_offset(rectangle, square);
     // No variance exceeds the sum of both: most pairs are far apart and end here.
@@ -423,7 +424,8 @@ void hypotheses_from_rings(const struct detect_scratch *scratch, const struct ca
             if (view_of(&affine, camera, &hypothesis.view)) {
                 // The rectangle weighs more.
                 hypothesis.error = (axis.x * offset.x + axis.y * offset.y) * sign < 0.0 ? 1.0 : 0.0;
-                hypothesis.error += deviation(merged.area_px / ring->shape.area_px, pad_area_mm2(PAD_INNER) / RING_AREA);
+                hypothesis.error +=
+                    deviation(merged.area_px / ring->shape.area_px, pad_area_mm2(PAD_INNER) / RING_AREA);
                 keep(found, &hypothesis);
             }
         }

@@ -64,8 +64,7 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     const bool ring = (sighting->kinds & PAD_RING) != 0U;
     const double doubt = sighting->pieces ? PIECES_FACTOR : 1.0;
     const double spread = sqrt((expected->cov_xx + expected->cov_yy) / 2.0);
-    const double edges_px =
-        inside * pad_edge_mm(sighting->kinds) * sqrt(expected->area_px / (inside * pad_area_mm2(sighting->kinds)));
+    const double edges_px = pad_edges_px(sighting->kinds, expected, inside);
     const double width_px = 2.0 * expected->area_px / edges_px;
     double sigma = ring ? RING_SIGMA_PX + RING_SIGMA_SIZE * spread : CENTROID_SIGMA_PX + CENTROID_SIGMA_SIZE * spread;
 

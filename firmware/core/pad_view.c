@@ -43,7 +43,8 @@ int pad_plane_of(const struct pad_view *view, const struct camera *camera, struc
 {
     const double *value = view->value;
     const double distance_mm = exp(value[PAD_LOG_DISTANCE_MM]);
-    const double scale = 1.0 / sqrt(value[PAD_TILT_X] * value[PAD_TILT_X] + value[PAD_TILT_Y] * value[PAD_TILT_Y] + 1.0);
+    const double scale =
+        1.0 / sqrt(value[PAD_TILT_X] * value[PAD_TILT_X] + value[PAD_TILT_Y] * value[PAD_TILT_Y] + 1.0);
     double direction[3];
 
     if (camera_direction(camera, value[PAD_X_PX], value[PAD_Y_PX], direction) != 0) {
@@ -261,7 +262,7 @@ static double annulus_area_mm2(const struct annulus *annulus)
     return PI * (annulus->outer_mm * annulus->outer_mm - annulus->inner_mm * annulus->inner_mm);
 }
 
-double pad_edge_mm(unsigned kinds)
+static double edges_mm(unsigned kinds)
 {
     return ((kinds & PAD_SQUARE) != 0U ? box_edge_mm(&square) : 0.0) +
            ((kinds & PAD_RECTANGLE) != 0U ? box_edge_mm(&rectangle) : 0.0) +
@@ -275,4 +276,10 @@ double pad_area_mm2(unsigned kinds)
            ((kinds & PAD_RECTANGLE) != 0U ? rectangle.width_mm * rectangle.height_mm : 0.0) +
            ((kinds & PAD_SMALL_RING) != 0U ? annulus_area_mm2(&small_ring) : 0.0) +
            ((kinds & PAD_RING) != 0U ? annulus_area_mm2(&ring) : 0.0);
+}
+
+double pad_edges_px(unsigned kinds, const struct shape *seen, double inside)
+{
+    // A pixel is so many mm, on the average of both directions.
+    return inside * edges_mm(kinds) * sqrt(seen->area_px / (inside * pad_area_mm2(kinds)));
 }

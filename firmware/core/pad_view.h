@@ -56,8 +56,11 @@ int pad_plane_unproject(const struct pad_plane *plane, const struct camera *came
 double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds, bool clipped,
                          struct shape *seen);
 
-// Length of the shapes' edges and their area.
-double pad_edge_mm(unsigned kinds);
+// Area of the shapes' print.
 double pad_area_mm2(unsigned kinds);
+
+// Length of the edges of what is seen of the shapes: `inside` is the share of
+// their print that `seen` is the image of.
+double pad_edges_px(unsigned kinds, const struct shape *seen, double inside);
 
 #endif

@@ -91,12 +91,11 @@ static void match(const struct detect_context *context, const struct pad_plane *
     struct shape expected;
     const struct candidate *nearest = NULL;
     double least = 0.0;
-    double inside = pad_plane_moments(plane, context->camera, kind, false, &expected);
+    double inside = 1.0;
 
-    if (!(inside > 0.0)) {
+    if (!(pad_plane_moments(plane, context->camera, kind, false, &expected) > 0.0)) {
         return;
     }
-    inside = 1.0;
     // Roughly how far it reaches: only near the border is the finer grid worth its time.
     const double reach = 2.0 * sqrt(expected.cov_xx + expected.cov_yy);
     if (expected.x_px < reach || expected.y_px < reach || expected.x_px > context->camera->width_px - 1.0 - reach ||
@@ -113,8 +112,7 @@ static void match(const struct detect_context *context, const struct pad_plane *
     if (!whole && (context->options & DETECT_CLOSE) == 0U) {
         return;
     }
-    const double edges_px = inside * pad_edge_mm(kind) * sqrt(expected.area_px / (inside * pad_area_mm2(kind)));
-    const double area_px = fmax(expected.area_px + edge_px * edges_px, AREA_MIN_PX);
+    const double area_px = fmax(expected.area_px + edge_px * pad_edges_px(kind, &expected, inside), AREA_MIN_PX);
     const double ratio = kind == PAD_SMALL_RING ? MATCH_SMALL_RING_RATIO : MATCH_AREA_RATIO;
     const double reachable = MATCH_DISTANCE_PX + MATCH_DISTANCE_SIZE * sqrt(expected.area_px);
     for (int i = 0; i < context->scratch->count; i++) {
@@ -123,8 +121,7 @@ static void match(const struct detect_context *context, const struct pad_plane *
         const double x = shape->x_px - expected.x_px;
         const double y = shape->y_px - expected.y_px;
         const double squared = x * x + y * y;
-        if (squared > reachable * reachable || shape->area_px > ratio * area_px || shape->area_px * ratio < area_px ||
-            (candidate->clipped && whole && inside < 1.0 - 1e-9)) {
+        if (squared > reachable * reachable || shape->area_px > ratio * area_px || shape->area_px * ratio < area_px) {
             continue;
         }
         if (nearest == NULL || squared < least) {
@@ -140,7 +137,8 @@ static void match(const struct detect_context *context, const struct pad_plane *
 }
 
 // Mean square distance of a shape's print from the pad's centre, mm^2; negative if it looks past the plane.
-static double square_radius(const struct detect_context *context, const struct pad_plane *plane, const struct shape *shape)
+static double square_radius(const struct detect_context *context, const struct pad_plane *plane,
+                            const struct shape *shape)
 {
     double x;
     double y;
@@ -223,7 +221,7 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     if (!(inside > 0.05)) {
         return;
     }
-    const double edges_px = inside * pad_edge_mm(PAD_RING) * sqrt(expected.area_px / (inside * pad_area_mm2(PAD_RING)));
+    const double edges_px = pad_edges_px(PAD_RING, &expected, inside);
     const double area_px = fmax(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
     reading->ring_width_px = 2.0 * area_px / edges_px;
     // The disc, in any direction, from wherever the border has moved the centroid to.
@@ -239,7 +237,8 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
         const double square = square_radius(context, plane, shape);
         if (square > SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM &&
             square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !is_sighted(reading, shape)) {
-            reading->clutter += shape->area_px / (area_px / inside) * pad_area_mm2(PAD_RING) / pad_area_mm2(PAD_RECTANGLE);
+            reading->clutter +=
+                shape->area_px / (area_px / inside) * pad_area_mm2(PAD_RING) / pad_area_mm2(PAD_RECTANGLE);
         }
         if (!(square > PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM) ||
             !(square < PIECE_RADIUS_MAX_MM * PIECE_RADIUS_MAX_MM)) {

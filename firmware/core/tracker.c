@@ -64,7 +64,8 @@ static void predict(struct track_axis *axis, double seconds, double pull)
     const double noise = pull * pull * seconds * seconds;
 
     axis->value += axis->rate * seconds;
-    axis->variance += seconds * (2.0 * axis->covariance + seconds * axis->rate_variance) + noise * seconds * seconds / 4.0;
+    axis->variance += seconds * (2.0 * axis->covariance + seconds * axis->rate_variance);
+    axis->variance += noise * seconds * seconds / 4.0;
     axis->covariance += seconds * axis->rate_variance + noise * seconds / 2.0;
     axis->rate_variance += noise;
 }
