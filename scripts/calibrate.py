@@ -85,12 +85,12 @@ def _views(files: dict[str, Path], find: partial) -> Iterator[View]:
 def report(fit: Fit, seen: int, given: int) -> list[str]:
     """What is printed."""
     lines = [f"{seen} of {how_many(given, 'photo')} show the target.", ""]
-    lines += [f"{'photo':30}  {'points':>6}  error [px]", f"{'-' * 30}  {'-' * 6}  {'-' * 10}"]
+    lines += [f"{'photo':30}  points  distance [m]  error [px]", f"{'-' * 30}  ------  ------------  ----------"]
     lines += [
-        f"{view.name:30.30}  {view.pixels // 2:6}  {rms:10.3f}"
-        for view, rms in zip(fit.views, fit.rms_px(), strict=True)
+        f"{view.name:30.30}  {view.pixels // 2:6}  {distance:12.3f}  {rms:10.3f}"
+        for view, distance, rms in zip(fit.views, fit.distances_m(), fit.rms_px(), strict=True)
     ]
-    lines += [f"{name:30.30}  {'':6}    left out: far worse than the others" for name in fit.left_out]
+    lines += [f"{name:30.30}  left out: far worse than the others" for name in fit.left_out]
     lines += ["", f"Error over all points: {total_rms_px(fit):.3f} px", ""]
     return lines + [f"{key:12} {_value(fit, key)}" for key in FIELDS]
 
@@ -125,7 +125,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--frames", default="", help="folder of photos, 1280x720")
     parser.add_argument("--board", default="9x6", help="inner corners of the chessboard, or pad")
     parser.add_argument(
-        "--square-mm", type=float, default=25.0, help="side of a square; the camera does not depend on it"
+        "--square-mm",
+        type=float,
+        default=25.0,
+        help="side of a square; scales the distances, the camera does not depend on it",
     )
     parser.add_argument("--radial", type=int, choices=(0, 1, 2), help="radial terms to fit; default 2, of the pad 0")
     parser.add_argument("--out", type=Path, default=DEFAULT_OUT, help="folder for the results")

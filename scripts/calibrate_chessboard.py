@@ -30,9 +30,10 @@ class Board:
 
     @property
     def corners_mm(self) -> np.ndarray:
-        """(n, 2), in the order in which OpenCV finds them."""
+        """(n, 2) from the board's middle, in the order in which OpenCV finds them."""
         y, x = np.mgrid[: self.down, : self.across]
-        return self.square_mm * np.column_stack([x.ravel(), y.ravel()]).astype(float)
+        middle = ((self.across - 1) / 2, (self.down - 1) / 2)
+        return self.square_mm * (np.column_stack([x.ravel(), y.ravel()]) - middle)
 
 
 def parse_board(text: str, square_mm: float) -> Board:

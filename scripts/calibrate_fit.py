@@ -65,6 +65,10 @@ class Fit:
         """What was seen less what the model says, a photo each."""
         return [view.seen - view.predict(self.camera, pose) for view, pose in zip(self.views, self.poses, strict=True)]
 
+    def distances_m(self) -> list[float]:
+        """From the camera to the target's middle, a photo each."""
+        return [float(np.linalg.norm(pose[3:6])) / 1000.0 for pose in self.poses]
+
     def rms_px(self) -> list[float]:
         """Root mean square of the distance between point and model, a photo each."""
         pairs = (left[: view.pixels].reshape(-1, 2) for view, left in zip(self.views, self.residuals(), strict=True))

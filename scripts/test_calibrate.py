@@ -64,13 +64,16 @@ def test_chessboards_give_the_camera_back(boards: Path, tmp_path: Path, capsys: 
 
 
 def test_chessboards_say_how_well_they_know(boards: Path) -> None:
-    """The standard errors hold, the squares' size changes nothing, and without radial terms it fits worse."""
+    """The standard errors hold, the squares' size changes distances alone, and without radial terms it fits worse."""
     files = calibrate.photos(str(boards))
     fit = calibrate.calibrate(files, "9x6", 25.0, 2)
     check_errors(fit, LENS)
     assert fit.errors["focal_px"] < 0.3
     assert calibrate.total_rms_px(fit) < 0.06
-    assert calibrate.calibrate(files, "9x6", 50.0, 2).camera.focal_px == pytest.approx(fit.camera.focal_px, abs=1e-3)
+    twice = calibrate.calibrate(files, "9x6", 50.0, 2)
+    assert twice.camera.focal_px == pytest.approx(fit.camera.focal_px, abs=1e-3)
+    assert twice.distances_m() == pytest.approx([2 * distance for distance in fit.distances_m()], rel=1e-4)
+    assert 0.2 < min(fit.distances_m()) < max(fit.distances_m()) < 0.4
     plain = calibrate.calibrate(files, "9x6", 25.0, 0)
     assert (plain.camera.radial_2, plain.camera.radial_4) == (0.0, 0.0)
     assert calibrate.total_rms_px(plain) > 2 * calibrate.total_rms_px(fit)

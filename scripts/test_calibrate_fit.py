@@ -76,14 +76,19 @@ def test_a_photo_far_worse_than_the_others_is_left_out() -> None:
     assert result.camera.focal_px == pytest.approx(TRUTH.focal_px, abs=1.0)
 
 
-def test_too_little_to_determine_a_camera() -> None:
+@pytest.mark.parametrize(
+    ("points", "free"),
+    [pytest.param(3, PARAMETERS, id="fewer numbers than unknowns"), pytest.param(4, PARAMETERS[:2], id="as many")],
+)
+def test_too_little_to_determine_a_camera(points: int, free: tuple[str, ...]) -> None:
+    some = POINTS_MM[[0, 8, 54, 62][:points]]
+
     def predict(camera: Camera, unknowns: np.ndarray) -> np.ndarray:
-        return camera.project(pose_points(POINTS_MM[:3], unknowns)).ravel()
+        return camera.project(pose_points(some, unknowns)).ravel()
 
     pose = poses(1)[0]
-    three = View("three points", predict(TRUTH, pose), predict, pose, 6)
     with pytest.raises(UserError, match="do not determine the camera"):
-        fit(Camera(), [three] * 5, PARAMETERS)
+        fit(Camera(), [View("few points", predict(TRUTH, pose) + 0.1, predict, pose, 2 * points)], free)
 
 
 def test_the_firmwares_camera_is_the_renderers() -> None:
