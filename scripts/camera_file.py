@@ -5,6 +5,7 @@ python -m scripts.camera_file --camera firmware/camera.toml --header build/firmw
 """
 
 import math
+import os
 import tomllib
 from pathlib import Path
 
@@ -81,7 +82,10 @@ def main(arguments: list[str] | None = None) -> None:
     text = header_of(read_camera(options.camera))
     if not options.header.is_file() or options.header.read_text(encoding="utf-8") != text:
         options.header.parent.mkdir(parents=True, exist_ok=True)
-        options.header.write_text(text, encoding="utf-8")
+        # In one piece, because another build may be reading it.
+        whole = options.header.with_name(f"{options.header.name}.{os.getpid()}")
+        whole.write_text(text, encoding="utf-8")
+        whole.replace(options.header)
 
 
 if __name__ == "__main__":
