@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 
 from scripts import calibrate, calibrate_rendered
+from scripts.calibrate_pad import find_pad
+from scripts.calibrate_rendered import render_pad
 from scripts.camera_file import read_camera, text_of
 from scripts.errors import UserError
 from sim.world.camera import Camera
+from sim.world.pose import Pose
 
 ROOT = Path(__file__).resolve().parent.parent
 LENS = Camera(focal_px=571.0, centre_x=652.0, centre_y=349.0, radial_2=-0.03, radial_4=0.004)
@@ -86,6 +89,17 @@ def test_pads_give_the_camera_back(pads: Path) -> None:
     assert fit.camera.focal_px == pytest.approx(PLAIN.focal_px, rel=0.03)
     assert (fit.camera.centre_x, fit.camera.centre_y) == pytest.approx((PLAIN.centre_x, PLAIN.centre_y), abs=12.0)
     assert calibrate.total_rms_px(fit) < 0.12
+
+
+def test_a_pad_counts_with_a_whole_ring() -> None:
+    whole = render_pad(Pose(0.5), Camera(), 1)
+    broken = whole.copy()
+    broken[350:371, 490:540] = broken[350:371, 740:790] = 214
+    no_small_ring = whole.copy()
+    no_small_ring[335:386, 615:666] = 214
+    assert find_pad(whole, "whole", Camera()).pixels == 8
+    assert find_pad(no_small_ring, "three", Camera()).pixels == 6
+    assert find_pad(broken, "broken", Camera()) is None
 
 
 def some(folder: Path, source: Path, count: int) -> str:
