@@ -116,9 +116,9 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
 }
 
 // Close to the ground all shapes of the pad are large, and what is smaller only costs time.
-static uint32_t least_area_px(const struct lidar_reading *lidar)
+static uint32_t least_area_px(const struct lidar_reading *lidar, const struct camera *camera)
 {
-    const double side_px = SQUARE_SIDE_MM * camera_default.focal_px / fmax((double)lidar->distance_mm, 1.0);
+    const double side_px = SQUARE_SIDE_MM * camera->focal_px / fmax((double)lidar->distance_mm, 1.0);
 
     if (!fusion_lidar_usable(lidar)) {
         return MIN_AREA_LEAST_PX;
@@ -128,9 +128,9 @@ static uint32_t least_area_px(const struct lidar_reading *lidar)
 }
 
 static void adapt_min_area(struct app *app, const struct landing_result_header *header,
-                           const struct lidar_reading *lidar)
+                           const struct lidar_reading *lidar, const struct camera *camera)
 {
-    const uint32_t least_px = least_area_px(lidar);
+    const uint32_t least_px = least_area_px(lidar, camera);
 
     // A change shows a few frames later, and without thresholds there are no
     // objects: until then there is nothing to learn.
@@ -187,10 +187,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         .distance_mm = record->header.altitude_mm,
         .age_us = record->header.altitude_age_us,
     };
-    adapt_min_area(app, &record->header, &lidar);
     // Smaller frames are the same camera, binned.
     struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
     camera.height_px = (double)record->header.frame_size_height;
+    adapt_min_area(app, &record->header, &lidar, &camera);
     struct detect_hint hint = detect_no_hint;
     hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
     attitude_tilt(&app->attitude, now_us, &hint.tilt);

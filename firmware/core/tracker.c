@@ -115,7 +115,8 @@ static enum track_result bridge(struct tracker *tracker, const struct camera *ca
 {
     const double depth_m = tracker->axes[TRACK_DEPTH_M].value;
 
-    if (tracker->hits < HITS_TO_CONFIRM || tracker->bridged >= BRIDGED_MAX || !(depth_m > 0.0)) {
+    if (tracker->hits < HITS_TO_CONFIRM || tracker->bridged >= BRIDGED_MAX || !(depth_m > 0.0) ||
+        !(depth_m + tracker->height_less_depth_m > 0.0)) {
         tracker->hits = 0U;
         return TRACK_NONE;
     }
