@@ -19,8 +19,10 @@
 #define MIN_AREA_START_PX 100U
 #define MIN_AREA_LEAST_PX 30U
 #define MIN_AREA_GREATEST_PX 150U
-// Of a square below the camera; 50 degrees off the axis its image is four times smaller.
-#define SQUARE_SHARE 0.15
+// Of a square below the camera; 50 degrees off the axis its image is four times
+// smaller, 30 degrees off it nearly half, and the filters take its corners.
+#define SQUARE_SHARE_LEAST 0.15
+#define SQUARE_SHARE_GREATEST 0.4
 // A window of 128x128 with less contrast shows paper or a black shape alone, and
 // is judged by its neighbour's threshold. The noise of a camera stays below it.
 #define FLAT_LIMIT 16U
@@ -115,22 +117,35 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
                                  APP_PAD_FIELDS, bytes));
 }
 
-// Close to the ground all shapes of the pad are large, and what is smaller only costs time.
-static uint32_t least_area_px(const struct lidar_reading *lidar, const struct camera *camera)
-{
-    const double side_px = SQUARE_SIDE_MM * camera->focal_px / fmax((double)lidar->distance_mm, 1.0);
+struct area_limits {
+    uint32_t least_px;
+    uint32_t greatest_px;
+};
 
-    if (!fusion_lidar_usable(lidar)) {
-        return MIN_AREA_LEAST_PX;
+static uint32_t limited_area_px(double area_px)
+{
+    return (uint32_t)fmin(fmax(area_px, (double)MIN_AREA_LEAST_PX), (double)MIN_AREA_GREATEST_PX);
+}
+
+// The least and greatest MIN_AREA that make sense at a height: close to the ground
+// all shapes of the pad are large, and what is smaller only costs time; from afar
+// the square is small, and better the last objects of a frame are lost than it.
+static struct area_limits area_limits_of(const struct lidar_reading *lidar, const struct camera *camera)
+{
+    struct area_limits limits = {.least_px = MIN_AREA_LEAST_PX, .greatest_px = MIN_AREA_GREATEST_PX};
+
+    if (fusion_lidar_usable(lidar)) {
+        const double side_px = SQUARE_SIDE_MM * camera->focal_px / fmax((double)lidar->distance_mm, 1.0);
+        limits.least_px = limited_area_px(SQUARE_SHARE_LEAST * side_px * side_px);
+        limits.greatest_px = limited_area_px(SQUARE_SHARE_GREATEST * side_px * side_px);
     }
-    return (uint32_t)fmin(fmax(SQUARE_SHARE * side_px * side_px, (double)MIN_AREA_LEAST_PX),
-                          (double)MIN_AREA_GREATEST_PX);
+    return limits;
 }
 
 static void adapt_min_area(struct app *app, const struct landing_result_header *header,
                            const struct lidar_reading *lidar, const struct camera *camera)
 {
-    const uint32_t least_px = least_area_px(lidar, camera);
+    const struct area_limits limits = area_limits_of(lidar, camera);
 
     // A change shows a few frames later, and without thresholds there are no
     // objects: until then there is nothing to learn.
@@ -142,9 +157,9 @@ static void adapt_min_area(struct app *app, const struct landing_result_header *
     } else if (header->object_count < OBJECTS_FEW) {
         app->min_area_px -= app->min_area_px / 5U;
     }
-    app->min_area_px = app->min_area_px < least_px               ? least_px
-                       : app->min_area_px > MIN_AREA_GREATEST_PX ? MIN_AREA_GREATEST_PX
-                                                                 : app->min_area_px;
+    app->min_area_px = app->min_area_px < limits.least_px      ? limits.least_px
+                       : app->min_area_px > limits.greatest_px ? limits.greatest_px
+                                                               : app->min_area_px;
 }
 
 uint32_t app_min_area_px(const struct app *app)

@@ -13,7 +13,7 @@
 #define DOUBT_MISSING 1.5 // for a square, rectangle or small ring that should be there
 #define HEIGHT_TOLERANCE 0.25
 #define HEIGHT_TOLERANCE_M 0.1
-#define DOUBT_HEIGHT 1.5 // for a LiDAR reading that contradicts the size
+#define DOUBT_HEIGHT 1.0 // for a LiDAR reading that contradicts the size
 // Of a ring in pieces that is not whole enough to be fitted, any grass may be a part.
 #define PIECES_DOUBT_MAX 1.2
 #define UNCONFIRMED_TILT 0.4
