@@ -86,6 +86,8 @@ def test_a_picture_of_something_else_is_seen(tmp_path: Path, monkeypatch: pytest
         ('"name": "s_axis_tdata"', '"name": "s_axis_data"', "is no port of the core"),
         ('"wave": "x1', '"wave": "|1', "cannot be played"),
         ('"MAX_WIDTH": 8', '"MAX_WIDTH": 1', "does not elaborate"),
+        ('"name": "clk", "wave": "p..', '"name": "clk", "wave": "p.|', "cannot be played"),
+        ('"set"', '"gaps": [3], "set"', "cannot be played"),
         ("```json", "```", "put WaveDrom JSON there"),
     ],
 )
@@ -109,10 +111,51 @@ def test_what_the_rtl_does_is_what_is_drawn(tmp_path: Path, monkeypatch: pytest.
     assert any("not those of the RTL" in fault for fault in page_faults("rgb2gray", read_page("rgb2gray")))
 
 
+def changed_prelude(folder: Path, monkeypatch: pytest.MonkeyPatch, before: str, after: str) -> list[str]:
+    """Faults of the page of landing_core when its prelude says something else."""
+    text = (timing.PAGES / "landing_core_frame.vh").read_text()
+    assert text.count(before) == 1
+    (folder / "landing_core_frame.vh").write_text(text.replace(before, after))
+    monkeypatch.setattr(timing, "PAGES", folder)
+    return page_faults("landing_core", read_page("landing_core"))
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("SQUARE_LEFT = 5", "SQUARE_LEFT = 4"),
+        ("32'h80);  // THRESHOLD", "32'h81);  // THRESHOLD"),
+        ("32'h1000);  // RING_BASE", "32'h2000);  // RING_BASE"),
+        ("24'h101010", "24'h000000 + {24{y == SQUARE_TOP}}"),
+    ],
+)
+def test_drift_of_a_prelude_is_seen(before: str, after: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = changed_prelude(tmp_path, monkeypatch, before, after)
+    assert "landing_core: the waves are not those of the RTL; run `python -m scripts.corepage --write`" in found
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "sentence"),
+    [
+        ("task prelude;", "task overture;", "does not elaborate"),
+        ("    start_frame;\n", "    wait (0);\n", "landing_core.md does not end within 2000 clocks"),
+        ("ANSWER_CLOCKS = 3", "ANSWER_CLOCKS = 5", "m_axi_bvalid changes in clock 2 of the gap in column 26; draw"),
+        ("LAST_LINE - 1", "LAST_LINE", "m_axi_awaddr changes"),
+    ],
+)
+def test_unusable_prelude_is_one_sentence(
+    before: str, after: str, sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(timing, "LIMIT_CLOCKS", 2000)
+    with pytest.raises(UserError, match=sentence):
+        changed_prelude(tmp_path, monkeypatch, before, after)
+
+
 def test_waves_of_inputs_and_outputs() -> None:
     assert driven("x1.0=.", ["A5"], 8) == ["8'bx", "8'd1", "8'd1", "8'd0", "8'hA5", "8'hA5"]
     assert drawn(["x0", "0x", "01", "01", "11"]) == ("x.=.=", ["1", "3"])
     assert drawn(["0", "1", "1", "x", "0"]) == ("01.x0", [])
+    assert drawn(["01", "01", "11", "11"], [1]) == ("=|=.", ["1", "3"])
 
 
 def test_a_block_is_replaced_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
