@@ -216,6 +216,32 @@ async def each_record_tells_of_its_own_frame(dut: HierarchyObject, sleep: str) -
 
 
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
+async def next_frame_begins_while_one_is_labelled(dut: HierarchyObject) -> None:
+    """With a line of blanking a frame begins before the last lines of the one before have left the filters."""
+    bench = Bench(dut)
+    size = (16, 16)
+    await bench.reset()
+    await bench.configure(bench.settings, size)
+    rgbs = [picture(bench.rng, *size) for _ in range(8)]
+    raw = Raw()
+    for rgb in rgbs:
+        raw.frame(lines_of(rgb), replace(BLANKING, front=6, sync=4, back=6))
+    raw.blank(2)
+    await bench.play(raw)
+    await bench.settle()
+    assert await bench.read(regs.FRAMES_OVERFLOW_OFFSET) == 0, f"a frame overflowed; {where()}"
+    numbers = [record.number for record in bench.records]
+    assert numbers == list(range(1, len(rgbs) + 1)), f"records of the frames {numbers}, expected all 8; {where()}"
+    frames = split_frames(bench.monitors["dilated"].taken)
+    published: list[Expected] = []
+    for record, rgb, beats in zip(bench.records, rgbs, frames, strict=True):
+        expected = Expected(record.number, rgb, published[-1] if published else None, bench.settings)
+        expected.waited(beats[-1].cycle, least_overflow=0, most_overflow=0)
+        expected.check(bench, record)
+        published.append(expected)
+
+
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us")
 async def configuration_counts_from_the_next_frame(dut: HierarchyObject) -> None:
     """Registers are written while a frame passes; size, polarity, factor and least area change for the next one."""
     bench = Bench(dut)
