@@ -113,8 +113,8 @@ class Bench:
 
         def on_beat(beat: Beat) -> None:
             set_size(beat)
-            if beat.user:
-                self.dut.cfg_dark_is_one.value = dark_of(beat.data)
+            # It counts with the first pixel alone.
+            self.dut.cfg_dark_is_one.value = dark_of(beat.data) if beat.user else self.rng.getrandbits(1)
 
         self.video.source.on_beat = on_beat
         cocotb.start_soon(self._watch_levels())

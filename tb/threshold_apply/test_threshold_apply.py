@@ -141,6 +141,7 @@ async def tell_sets(bench: Bench) -> None:
 @cocotb.test()
 @cocotb.parametrize(stall=list(STALLS))
 async def reset_forgets_the_thresholds(dut: HierarchyObject, stall: str) -> None:
+    """What was told before the reset, and what is told after it but before a frame says its size, serves no frame."""
     bench = await Bench(dut, stall).begin()
     for _ in range(5):
         frame = random_frame(bench.rng, 9, 7, 8)
@@ -152,6 +153,8 @@ async def reset_forgets_the_thresholds(dut: HierarchyObject, stall: str) -> None
         await bench.video.cycles(bench.rng.randint(1, 120))
         bench.stats.stop()
         await bench.video.reset(bench.rng.randint(1, 3))
+        bench.stats.send_beats(set_beats(random_nodes(bench.rng, 9, 7), bench.rng))
+        await bench.until_told()
         bench.send(frame_beats(frame) * 2)
         served = await bench.finish()
         assert [one.nodes for one in served] == [None, None], f"thresholds survived a reset; {where()}"
