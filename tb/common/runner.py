@@ -11,7 +11,6 @@ import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from xml.etree import ElementTree
 
 from cocotb_tools.check_results import get_results
 from cocotb_tools.runner import VerilatorControlFile, get_runner
@@ -145,8 +144,6 @@ def run_config(
             count, failures = get_results(results)
         except RuntimeError:
             return Result(False, f"the simulation crashed:\n{_tail(test_log)}", replay, test_log)
-    # What a config skips is no test of it.
-    count -= len(ElementTree.parse(results).findall(".//skipped"))
     if count == 0:
         return Result(False, f"no test matches '{testcase}'", replay, test_log)
     if failures:
