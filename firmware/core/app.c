@@ -105,7 +105,7 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
         values[APP_PAD_ANGLE_DEG] = (float)pad->angle_deg;
         values[APP_PAD_RIGHT_M] = (float)(pad->right_m * scale_of(pad, altitude));
         values[APP_PAD_FORWARD_M] = (float)(pad->forward_m * scale_of(pad, altitude));
-        values[APP_PAD_ERROR] = (float)pad->doubt;
+        values[APP_PAD_DOUBT] = (float)pad->doubt;
         values[APP_PAD_SIZE_ALTITUDE_M] = (float)pad->height_m;
     }
     values[APP_PAD_ALTITUDE_M] = (float)altitude->height_m;

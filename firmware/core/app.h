@@ -39,7 +39,7 @@ enum app_pad_field {
     APP_PAD_FRAME_NUMBER,  // exact below 2^24
     APP_PAD_OBJECT_COUNT,
     APP_PAD_FLAGS,         // APP_FLAG_*
-    APP_PAD_ERROR,         // doubt: misfit (1 = noise alone) and what is missing or does not belong
+    APP_PAD_DOUBT,         // doubt: misfit (1 = noise alone) and what is missing or does not belong
     APP_PAD_SIZE_ALTITUDE_M, // altitude from the pad's size alone
     APP_PAD_FIELDS
 };

@@ -203,14 +203,14 @@ static double doubt_after(enum app_link link, uint64_t later_us)
     tell_attitude(link, 3.0, -3.0);
     now_us += later_us - FRAME_US;
     show(&with_pad);
-    return (double)array[APP_PAD_ERROR];
+    return (double)array[APP_PAD_DOUBT];
 }
 
 static void test_attitude_of_the_autopilot(void)
 {
     start();
     show(&with_pad);
-    const double alone = (double)array[APP_PAD_ERROR];
+    const double alone = (double)array[APP_PAD_DOUBT];
 
     test_case("an attitude that contradicts the pad makes it doubtful");
     CHECK(doubt_after(APP_LINK_AUTOPILOT, FRAME_US) > alone + 0.1);
@@ -223,7 +223,7 @@ static void test_attitude_of_the_autopilot(void)
     start();
     tell_attitude(APP_LINK_AUTOPILOT, (double)NAN, 0.0);
     show(&with_pad);
-    NEAR((double)array[APP_PAD_ERROR], alone, 0.0);
+    NEAR((double)array[APP_PAD_DOUBT], alone, 0.0);
 }
 
 void test_app_track(void)
