@@ -360,12 +360,7 @@ void hypotheses_from_small_rings(const struct detect_scratch *scratch, const str
 // All that lies inside a ring as one shape. False when it weighs too little or too much.
 static bool merge_inner(const struct detect_scratch *scratch, const struct shape *ring, struct shape *merged)
 {
-    double area = 0.0;
-    double x = 0.0;
-    double y = 0.0;
-    double xx = 0.0;
-    double xy = 0.0;
-    double yy = 0.0;
+    struct shape_sum inner = {.origin = *ring};
 
     for (int i = 0; i < scratch->count; i++) {
         const struct shape *shape = &scratch->candidates[i].shape;
@@ -375,24 +370,12 @@ static bool merge_inner(const struct detect_scratch *scratch, const struct shape
             shape->area_px > ring->area_px) {
             continue;
         }
-        area += shape->area_px;
-        x += shape->area_px * offset.x;
-        y += shape->area_px * offset.y;
-        xx += shape->area_px * (shape->cov_xx + offset.x * offset.x);
-        xy += shape->area_px * (shape->cov_xy + offset.x * offset.y);
-        yy += shape->area_px * (shape->cov_yy + offset.y * offset.y);
+        shape_sum_add(&inner, shape);
     }
-    if (!in_range(area / ring->area_px, inner_to_ring_area)) {
+    if (!in_range(inner.area_px / ring->area_px, inner_to_ring_area)) {
         return false;
     }
-    x /= area;
-    y /= area;
-    *merged = (struct shape){.area_px = area,
-                             .x_px = ring->x_px + x,
-                             .y_px = ring->y_px + y,
-                             .cov_xx = xx / area - x * x,
-                             .cov_xy = xy / area - x * y,
-                             .cov_yy = yy / area - y * y};
+    *merged = shape_of_sum(&inner);
     return true;
 }
 

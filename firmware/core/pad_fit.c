@@ -23,7 +23,7 @@
 #define SMALL_RING_PRECISE_AREA_PX 150.0
 #define SMALL_RING_SIGMA_MAX_PX 3.0
 // Blur, threshold and opening round the corners of a square or rectangle:
-// sim/accuracy measures 19 px for all four, whatever the size.
+// 19 px for all four, whatever the size: firmware/test_corners.py measures it.
 #define CORNERS_LOST_PX 19.0
 #define CORNER_SIZE_PX 2.4
 // And the opening eats a ring thinner than this where it is thinnest.

@@ -159,43 +159,6 @@ static double square_radius(const struct detect_context *context, const struct p
     return x * x + y * y + xx * shape->cov_xx + 2.0 * xy * shape->cov_xy + yy * shape->cov_yy;
 }
 
-// Several shapes taken as one, summed up near where they are expected.
-struct merged {
-    struct shape origin; // only its place is used
-    double area;
-    double x;
-    double y;
-    double xx;
-    double xy;
-    double yy;
-};
-
-static void merge(struct merged *merged, const struct shape *shape)
-{
-    const struct vector offset = shape_offset(&merged->origin, shape);
-
-    merged->area += shape->area_px;
-    merged->x += shape->area_px * offset.x;
-    merged->y += shape->area_px * offset.y;
-    merged->xx += shape->area_px * (shape->cov_xx + offset.x * offset.x);
-    merged->xy += shape->area_px * (shape->cov_xy + offset.x * offset.y);
-    merged->yy += shape->area_px * (shape->cov_yy + offset.y * offset.y);
-}
-
-static struct shape shape_of(const struct merged *merged)
-{
-    const double x = merged->x / merged->area;
-    const double y = merged->y / merged->area;
-    const struct shape shape = {.area_px = merged->area,
-                                .x_px = merged->origin.x_px + x,
-                                .y_px = merged->origin.y_px + y,
-                                .cov_xx = merged->xx / merged->area - x * x,
-                                .cov_xy = merged->xy / merged->area - x * y,
-                                .cov_yy = merged->yy / merged->area - y * y};
-
-    return shape;
-}
-
 static bool is_sighted(const struct reading *reading, const struct shape *shape)
 {
     for (int i = 0; i < reading->evidence.count; i++) {
@@ -211,7 +174,7 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
                        struct reading *reading)
 {
     struct shape expected;
-    struct merged ring = {.area = 0.0};
+    struct shape_sum ring = {.area_px = 0.0};
     int pieces = 0;
     bool clipped = false;
     const double inside = pad_plane_moments(plane, context->camera, PAD_RING, true, &expected);
@@ -244,23 +207,23 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
             !(square < PIECE_RADIUS_MAX_MM * PIECE_RADIUS_MAX_MM)) {
             continue;
         }
-        merge(&ring, shape);
+        shape_sum_add(&ring, shape);
         clipped = clipped || candidate->clipped;
         pieces++;
     }
-    reading->ring_share = ring.area / area_px;
+    reading->ring_share = ring.area_px / area_px;
     if (reading->ring_share < RING_SHARE_WHOLE || reading->ring_share > 1.0 / RING_SHARE_WHOLE ||
         ((context->options & DETECT_RING_PIECES) == 0U && (pieces != 1 || clipped))) {
         return;
     }
-    const struct shape seen = shape_of(&ring);
+    const struct shape seen = shape_of_sum(&ring);
     add_sighting(reading, PAD_RING, &seen, clipped || inside < MATCH_INSIDE_WHOLE, pieces > 1);
 }
 
 // All that lies inside the ring, as one: the inner shapes have run together.
 static void match_fused(const struct detect_context *context, const struct pad_plane *plane, struct reading *reading)
 {
-    struct merged inner = {.area = 0.0};
+    struct shape_sum inner = {.area_px = 0.0};
     struct shape expected;
 
     pad_plane_moments(plane, context->camera, PAD_INNER, false, &expected);
@@ -269,11 +232,11 @@ static void match_fused(const struct detect_context *context, const struct pad_p
         const struct candidate *candidate = &context->scratch->candidates[i];
         const double square = square_radius(context, plane, &candidate->shape);
         if (square >= 0.0 && square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !candidate->clipped) {
-            merge(&inner, &candidate->shape);
+            shape_sum_add(&inner, &candidate->shape);
         }
     }
-    if (inner.area > expected.area_px / MATCH_AREA_RATIO && inner.area < expected.area_px * MATCH_AREA_RATIO) {
-        const struct shape seen = shape_of(&inner);
+    if (inner.area_px > expected.area_px / MATCH_AREA_RATIO && inner.area_px < expected.area_px * MATCH_AREA_RATIO) {
+        const struct shape seen = shape_of_sum(&inner);
         add_sighting(reading, PAD_INNER, &seen, false, false);
     }
 }

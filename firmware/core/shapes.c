@@ -86,3 +86,29 @@ void shape_axes(const struct shape *shape, double *long_px, double *short_px, st
     long_axis->x = cos(angle);
     long_axis->y = sin(angle);
 }
+
+void shape_sum_add(struct shape_sum *sum, const struct shape *shape)
+{
+    const struct vector offset = shape_offset(&sum->origin, shape);
+
+    sum->area_px += shape->area_px;
+    sum->x += shape->area_px * offset.x;
+    sum->y += shape->area_px * offset.y;
+    sum->xx += shape->area_px * (shape->cov_xx + offset.x * offset.x);
+    sum->xy += shape->area_px * (shape->cov_xy + offset.x * offset.y);
+    sum->yy += shape->area_px * (shape->cov_yy + offset.y * offset.y);
+}
+
+struct shape shape_of_sum(const struct shape_sum *sum)
+{
+    const double x = sum->x / sum->area_px;
+    const double y = sum->y / sum->area_px;
+    const struct shape shape = {.area_px = sum->area_px,
+                                .x_px = sum->origin.x_px + x,
+                                .y_px = sum->origin.y_px + y,
+                                .cov_xx = sum->xx / sum->area_px - x * x,
+                                .cov_xy = sum->xy / sum->area_px - x * y,
+                                .cov_yy = sum->yy / sum->area_px - y * y};
+
+    return shape;
+}

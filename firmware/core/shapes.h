@@ -31,6 +31,22 @@ struct vector {
 // 0, or SHAPE_E_DEGENERATE when the sums belong to no set of pixels.
 int shape_from_object(const struct landing_object *object, struct shape *shape);
 
+// Several shapes that are taken as one, summed up near where they lie.
+struct shape_sum {
+    struct shape origin; // only its place is used
+    double area_px;
+    double x;
+    double y;
+    double xx;
+    double xy;
+    double yy;
+};
+
+void shape_sum_add(struct shape_sum *sum, const struct shape *shape);
+
+// The invariant is not computed.
+struct shape shape_of_sum(const struct shape_sum *sum);
+
 struct vector shape_offset(const struct shape *from, const struct shape *to);
 
 // Inner product of two offsets in the frame where the covariance of `shape` is
