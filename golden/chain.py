@@ -46,20 +46,34 @@ PAPER = Settings(factor=64, flat_limit=0, dark_is_one=False, label_zeros=True, m
 
 
 @dataclass(frozen=True)
-class Stages:
-    """What leaves each stage for one frame; pictures are (height, width), binary ones hold 0 and 1.
+class BinaryStages:
+    """What leaves each stage behind the threshold; pictures are uint8 (height, width) of 0 and 1.
+
+    Attributes:
+        binary: From `threshold_apply`.
+        eroded: From `erode3x3`.
+        median: From `median5x5`.
+        dilated: From `dilate3x3`.
+        objects: `OBJECT_DTYPE`, from `ccl`, in the order of `golden.ccl`.
+    """
+
+    binary: np.ndarray = field(repr=False)
+    eroded: np.ndarray = field(repr=False)
+    median: np.ndarray = field(repr=False)
+    dilated: np.ndarray = field(repr=False)
+    objects: np.ndarray = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Stages(BinaryStages):
+    """What leaves each stage for one frame; pictures are uint8 (height, width).
 
     Attributes:
         rgb: uint8 (height, width, 3), what the camera sent.
-        gray: uint8, from `rgb2gray`.
-        smooth: uint8, from `gaussian5x5` and again from `threshold_stats`.
+        gray: From `rgb2gray`.
+        smooth: From `gaussian5x5` and again from `threshold_stats`.
         stats: Of this frame, from `threshold_stats`; they serve the next one.
         stats_before: Of the frame before, whose thresholds `threshold_apply` used; None = none yet.
-        binary: uint8, from `threshold_apply`.
-        eroded: uint8, from `erode3x3`.
-        median: uint8, from `median5x5`.
-        dilated: uint8, from `dilate3x3`.
-        objects: `OBJECT_DTYPE`, from `ccl`, in the order of `golden.ccl`.
     """
 
     rgb: np.ndarray = field(repr=False)
@@ -67,11 +81,22 @@ class Stages:
     smooth: np.ndarray = field(repr=False)
     stats: WindowStats = field(repr=False)
     stats_before: WindowStats | None = field(repr=False)
-    binary: np.ndarray = field(repr=False)
-    eroded: np.ndarray = field(repr=False)
-    median: np.ndarray = field(repr=False)
-    dilated: np.ndarray = field(repr=False)
-    objects: np.ndarray = field(repr=False)
+
+
+def binary_stages(smooth: np.ndarray, stats_before: WindowStats | None, settings: Settings) -> BinaryStages:
+    """Run the stages behind `gaussian5x5`.
+
+    Args:
+        smooth: uint8 (height, width).
+        stats_before: `stats` of the frame before; None before the first complete frame.
+        settings: Registers.
+    """
+    binary = threshold_apply(smooth, stats_before.threshold if stats_before else None, settings.dark_is_one)
+    eroded = erode3x3(binary)
+    median = median5x5(eroded)
+    dilated = dilate3x3(median)
+    objects = np.asarray(ccl(dilated, settings.min_area, settings.label_zeros), OBJECT_DTYPE)
+    return BinaryStages(binary, eroded, median, dilated, objects)
 
 
 def run_chain(rgb: np.ndarray, stats_before: WindowStats | None, settings: Settings | None = None) -> Stages:
@@ -85,21 +110,13 @@ def run_chain(rgb: np.ndarray, stats_before: WindowStats | None, settings: Setti
     settings = settings or Settings()
     gray = rgb2gray(rgb)
     smooth = gaussian5x5(gray)
-    binary = threshold_apply(smooth, stats_before.threshold if stats_before else None, settings.dark_is_one)
-    eroded = erode3x3(binary)
-    median = median5x5(eroded)
-    dilated = dilate3x3(median)
     return Stages(
         rgb=rgb,
         gray=gray,
         smooth=smooth,
         stats=threshold_stats(smooth, settings.factor, flat_limit=settings.flat_limit),
         stats_before=stats_before,
-        binary=binary,
-        eroded=eroded,
-        median=median,
-        dilated=dilated,
-        objects=np.asarray(ccl(dilated, settings.min_area, settings.label_zeros), OBJECT_DTYPE),
+        **vars(binary_stages(smooth, stats_before, settings)),
     )
 
 

@@ -208,6 +208,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     adapt_min_area(app, &record->header, &lidar, &camera);
     struct detect_hint hint = detect_no_hint;
     hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
+    hint.searching = !factor_search_is_usual(record->header.threshold_factor);
     attitude_tilt(&app->attitude, now_us, &hint.tilt);
     const bool seen = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
     const enum track_result track =

@@ -32,7 +32,7 @@
 #define LINE_SIGMA_PX 0.03
 #define LINE_SIGMA_RING 0.001 // of the ring's diameter
 
-const struct detect_hint detect_no_hint = {.tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0};
+const struct detect_hint detect_no_hint = {.tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false};
 
 // By rising area (Shell): bounded, in place.
 static void sort_solids(struct detect_scratch *scratch)
@@ -274,7 +274,8 @@ static int try_all(const struct detect_context *context, const struct hypotheses
 int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,
                uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad)
 {
-    const struct detect_context context = {.scratch = scratch, .camera = camera, .hint = hint, .options = options};
+    const struct detect_context context = {.scratch = scratch, .camera = camera, .hint = hint, .options = options,
+                                           .crowded = record->header.objects_dropped != 0U};
     struct hypotheses hypotheses = {.count = 0};
 
     collect(record, camera, scratch);

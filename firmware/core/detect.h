@@ -54,6 +54,7 @@ struct pad_estimate {
 struct detect_hint {
     struct tilt_hint tilt; // how the plane is expected to lie
     double height_m;       // of the camera, along its axis, as the LiDAR says; 0 = not known
+    bool searching;        // the thresholds have not the usual factor: most of what is seen is clutter
 };
 
 // Level ground, roughly, and no altitude.

@@ -16,6 +16,7 @@
 #define DOUBT_HEIGHT 1.0 // for a LiDAR reading that contradicts the size
 // Of a ring in pieces that is not whole enough to be fitted, any grass may be a part.
 #define PIECES_DOUBT_MAX 1.2
+#define PIECES_DOUBT_CROWDED_MAX 0.8 // under other thresholds than the usual ones, among more than a record holds
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
 // With only one of square and rectangle there is little to contradict a view.
@@ -25,6 +26,7 @@
 // From afar the opening takes the ring. What is left must be nearly ideal, of the
 // right size, and lie as the autopilot's attitude says.
 #define FAR_DOUBT_MAX 0.6
+#define FAR_DOUBT_SEARCHING_MAX 0.27
 #define ATTITUDE_SIGMA 0.1
 #define FAR_RING_WIDTH_PX 6.5
 #define FAR_HEIGHT_TOLERANCE 0.12
@@ -101,10 +103,13 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     }
     if (pair && ring) {
         const bool whole = reading_has(reading, PAD_RING);
-        return whole || doubt + broken <= PIECES_DOUBT_MAX ? doubt + broken : -1.0;
+        const double pieces_max =
+            context->hint->searching && context->crowded ? PIECES_DOUBT_CROWDED_MAX : PIECES_DOUBT_MAX;
+        return whole || doubt + broken <= pieces_max ? doubt + broken : -1.0;
     }
     if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
         return doubt + broken <= CLOSE_DOUBT_MAX ? doubt + broken : -1.0;
     }
-    return pair && far_enough(context, reading, view) && doubt <= FAR_DOUBT_MAX ? doubt : -1.0;
+    const double far_max = context->hint->searching ? FAR_DOUBT_SEARCHING_MAX : FAR_DOUBT_MAX;
+    return pair && far_enough(context, reading, view) && doubt <= far_max ? doubt : -1.0;
 }

@@ -16,6 +16,9 @@ struct factor_search {
 // Q1.8, as in the THRESHOLD register.
 uint32_t factor_search_factor(const struct factor_search *search);
 
+// True for the factor that most light needs.
+bool factor_search_is_usual(uint32_t factor);
+
 // One frame, taken with thresholds of `factor`.
 void factor_search_update(struct factor_search *search, bool found, uint32_t factor);
 

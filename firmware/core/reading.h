@@ -16,6 +16,7 @@ struct detect_context {
     const struct camera *camera;
     const struct detect_hint *hint;
     uint32_t options;
+    bool crowded; // the record had no room for all objects
 };
 
 // What a view makes of the record.

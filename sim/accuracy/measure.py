@@ -11,9 +11,8 @@ from typing import TypeVar
 
 import cv2
 
-from scripts.demo_results import Row as Seen
 from sim.accuracy.causes import shapes_seen
-from sim.accuracy.paths import golden, rtl
+from sim.accuracy.paths import Answer, golden, rtl, settled
 from sim.accuracy.rows import Row
 from sim.accuracy.shots import Film, Unit, develop
 
@@ -23,10 +22,10 @@ Given = TypeVar("Given")
 Result = TypeVar("Result")
 
 
-def rows_of(film: Film, seen: Sequence[Seen]) -> list[Row]:
+def rows_of(film: Film, answer: Answer) -> list[Row]:
     """What was seen of each shot, beside what is true of it."""
     rows = []
-    for shot, reference, one in zip(film.unit.shots, film.references, seen, strict=True):
+    for shot, reference, one in zip(film.unit.shots, film.references, answer.seen, strict=True):
         header = one.record["header"]
         row = Row(
             set=film.unit.set,
@@ -40,6 +39,8 @@ def rows_of(film: Film, seen: Sequence[Seen]) -> list[Row]:
             dropped=int(header["objects_dropped"]),
             min_area_px=int(header["min_area"]),
         )
+        if not film.unit.clip:
+            row = replace(row, strays=sum(replace(row, pad=earlier.pad).false for earlier in answer.before))
         if row.missed:
             row = replace(row, shapes=shapes_seen(one.objects, reference, shot.lidar_m, row.min_area_px))
         rows.append(row)
@@ -49,14 +50,16 @@ def rows_of(film: Film, seen: Sequence[Seen]) -> list[Row]:
 def measure_golden(unit: Unit) -> list[Row]:
     """Rows of a unit on the golden path."""
     film = develop(unit)
-    return rows_of(film, golden(film).seen)
+    return rows_of(film, golden(film))
 
 
 def measure_rtl(unit: Unit) -> list[Row]:
     """Rows of a unit on the verilated RTL."""
     film = develop(unit)
+    if not unit.clip:
+        film = settled(film)
     with tempfile.TemporaryDirectory() as folder:
-        return rows_of(film, rtl(film, Path(folder)).seen)
+        return rows_of(film, rtl(film, Path(folder)))
 
 
 class Workers:

@@ -80,7 +80,7 @@ def _chain(variant: Variant) -> Settings:
 
 def _rows(film: Film, variant: Variant, objects: Objects) -> list[Row]:
     if not variant.paper:
-        return rows_of(film, golden(film, variant.settings, variant.options, objects, variant.attitude).seen)
+        return rows_of(film, golden(film, variant.settings, variant.options, objects, variant.attitude))
     # The last showings count, one a shot.
     order = shown(film)[-len(film.images) - 1 :]
     rows = []

@@ -11,7 +11,7 @@ import numpy as np
 
 from firmware.library import AUTOPILOT, GROUND, Firmware, attitude_bytes
 from golden import result_writer
-from golden.chain import Settings, run_chain
+from golden.chain import Settings, binary_stages
 from golden.gaussian5x5 import gaussian5x5
 from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_DTYPE
 from golden.rgb2gray import rgb2gray
@@ -20,7 +20,7 @@ from scripts.demo_decode import Line, decode
 from scripts.demo_results import Row as Seen
 from scripts.demo_results import collect
 from scripts.frames import HEIGHT, WIDTH
-from sim.accuracy.shots import Film, Shot
+from sim.accuracy.shots import SHOWINGS_LEAST, SHOWINGS_STEADY, Film, Shot
 from sim.cosim.result import Frame
 from sim.cosim.run import run_cosim
 
@@ -39,16 +39,18 @@ class Answer:
         autopilot: Messages of UART0.
         ground: Messages of UART1.
         seen: One row a shot, as `scripts.demo_results` joins them.
+        before: The same for every showing before those, in order.
     """
 
     frames: list[Frame] = field(repr=False)
     autopilot: Line = field(repr=False)
     ground: Line = field(repr=False)
     seen: list[Seen]
+    before: list[Seen] = field(repr=False)
 
 
 def shown(film: Film) -> list[int]:
-    """Which of its shots the camera shows, one after the other."""
+    """Which of its shots the camera shows, one after the other; of a picture, as often as it is shown at most."""
     count = len(film.images)
     # A clip's first frame primes the thresholds, as in the demo.
     return [0, *range(count)] if film.unit.clip else [0] * film.unit.showings
@@ -56,8 +58,20 @@ def shown(film: Film) -> list[int]:
 
 def _answer(film: Film, frames: list[Frame], autopilot: Line, ground: Line) -> Answer:
     """What counts are the last showings, one a shot."""
-    counted = list(range(len(frames) - len(film.images), len(frames)))
-    return Answer(frames, autopilot, ground, collect(film.frames, counted, frames, autopilot, ground))
+    order, source = shown(film)[: len(frames)], film.frames
+    showings = replace(
+        source,
+        names=tuple(source.names[number] for number in order),
+        truths=tuple(source.truths[number] for number in order),
+    )
+    every = collect(showings, list(range(len(order))), frames, autopilot, ground)
+    first = len(every) - len(film.images)
+    return Answer(frames, autopilot, ground, every[first:], every[:first])
+
+
+def settled(film: Film) -> Film:
+    """The film with its picture shown as often as the golden path needs, for a path that cannot stop by itself."""
+    return replace(film, unit=replace(film.unit, showings=len(golden(film).frames)))
 
 
 class Objects:
@@ -71,16 +85,21 @@ class Objects:
     def __init__(self, film: Film, settings: Settings) -> None:
         self._images = film.images
         self._settings = replace(settings, min_area=0)
+        self._smooth: dict[int, np.ndarray] = {}
         self._known: dict[tuple[int, int, int], np.ndarray] = {}
 
     def of(self, shot: int, before: int, factor: int) -> np.ndarray:
         """Objects of a shot with the thresholds of the shot before it, made with that factor."""
         key = (shot, before, factor)
         if key not in self._known:
-            smooth = gaussian5x5(rgb2gray(self._images[before]))
-            stats = threshold_stats(smooth, factor, flat_limit=self._settings.flat_limit)
-            self._known[key] = run_chain(self._images[shot], stats, self._settings).objects
+            stats = threshold_stats(self._smoothed(before), factor, flat_limit=self._settings.flat_limit)
+            self._known[key] = binary_stages(self._smoothed(shot), stats, self._settings).objects
         return self._known[key]
+
+    def _smoothed(self, shot: int) -> np.ndarray:
+        if shot not in self._smooth:
+            self._smooth[shot] = gaussian5x5(rgb2gray(self._images[shot]))
+        return self._smooth[shot]
 
 
 def golden(
@@ -112,6 +131,7 @@ def golden(
     own_factor = settings.factor == Settings.factor
     sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
     frames: list[Frame] = []
+    steady = 0
     order = shown(film)
     # Without thresholds everything is bright, and no settings in use make that an object.
     every = np.zeros(0, OBJECT_DTYPE)
@@ -139,10 +159,14 @@ def golden(
         error = firmware.on_record(record, now_us)
         if error != 0:
             raise RuntimeError(f"the firmware refuses the record of {shot.name} with {error}")
+        # All that goes to an autopilot here is LANDING_TARGET: nothing asks, and no time passes for heartbeats.
+        steady = steady + 1 if firmware.sent[AUTOPILOT] else 0
         for link, data in firmware.sent.items():
             sent[link] += data
             data.clear()
         frames.append(Frame(index, first_ns, last_ns, _whole(record), last_ns + RECORD_NS))
+        if not film.unit.clip and len(frames) >= SHOWINGS_LEAST and steady >= SHOWINGS_STEADY:
+            break
     lines = {link: decode(bytes(data), [0] * len(data)) for link, data in sent.items()}
     return _answer(film, frames, lines[AUTOPILOT], lines[GROUND])
 

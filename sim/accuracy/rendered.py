@@ -10,7 +10,7 @@ import numpy as np
 
 from scripts.errors import UserError
 from sim.accuracy.rows import Reference
-from sim.accuracy.shots import SHOWINGS, SHOWINGS_OF_A_SECOND, Shot, Unit
+from sim.accuracy.shots import Shot, Unit
 from sim.world.corpus import NAMES, corpus
 from sim.world.pose import camera_from_level, truth_of
 from sim.world.scene import Scene, render_scene
@@ -53,8 +53,7 @@ def rendered_units(name: str, count: int | None = None) -> list[Unit]:
         scenes = _blinded(scenes)
     if name in CLIPS:
         return [Unit(name, tuple(_shots(scenes)), clip=True)]
-    showings = SHOWINGS_OF_A_SECOND if name.startswith(SWEEP) else SHOWINGS
-    return [Unit(name, (shot,), showings=showings) for shot in _shots(scenes)]
+    return [Unit(name, (shot,)) for shot in _shots(scenes)]
 
 
 def _shots(scenes: Iterator[Scene]) -> Iterator[Shot]:

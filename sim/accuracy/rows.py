@@ -59,6 +59,7 @@ class Row:
         dropped: Objects that did not fit into it.
         min_area_px: MIN_AREA of the record.
         shapes: Of a frame that was missed, what became of the pad's shapes.
+        strays: Of a picture, earlier showings in which a false pad was reported.
     """
 
     set: str
@@ -72,6 +73,7 @@ class Row:
     dropped: int
     min_area_px: int
     shapes: str = ""
+    strays: int = 0
 
     @property
     def error_x_px(self) -> float | None:
@@ -112,7 +114,9 @@ class Row:
 
     @property
     def false(self) -> bool:
-        """A pad where there is none, or farther than 5 px or 5 degrees from it."""
+        """A pad where there is none, or farther than 5 px or 5 degrees from it; at any time."""
+        if self.strays:
+            return True
         if self.pad is None or self.reference.present is None:
             return False
         if not self.reference.present:

@@ -3,6 +3,7 @@
 
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
+from itertools import groupby
 from pathlib import Path
 
 import cv2
@@ -34,12 +35,21 @@ _INK, _PAPER = (230, 236, 240), (20, 26, 32)
 _FONT = cv2.FontFace("sans")
 
 
-def overlay(unit: Unit, name: str) -> np.ndarray:
-    """A frame of a unit with what was seen in it, (720, 1280, 3) RGB. The golden path sees what the RTL sees."""
+def overlays(unit: Unit, names: Sequence[str]) -> Iterator[np.ndarray]:
+    """Frames of a unit with what was seen in each, (720, 1280, 3) RGB. The golden path sees what the RTL sees.
+
+    Of a picture with a false pad, the last showing that has one.
+    """
     film = develop(unit)
-    index = next(index for index, shot in enumerate(unit.shots) if shot.name == name)
-    # No wire, no latency.
-    return annotate(film.images[index], replace(golden(film).seen[index], latency_us=None))
+    answer = golden(film)
+    places = {shot.name: place for place, shot in enumerate(unit.shots)}
+    for name in names:
+        place = places[name]
+        seen = answer.seen[place]
+        if not unit.clip and seen.pad is None:
+            seen = next((one for one in reversed(answer.before) if one.pad is not None), seen)
+        # No wire, no latency.
+        yield annotate(film.images[place], replace(seen, latency_us=None))
 
 
 def plan(rows: Sequence[Row]) -> dict[str, list[Row]]:
@@ -104,9 +114,10 @@ def write_sheets(
             continue
         # Evenly over all of them: the first ones would be those of one set.
         chosen = frames[:: -(-len(frames) // most)]
-        thumbs = workers.map(f"sheet {name}", _thumb, [(unit_of[row.set, row.name], row) for row in chosen])
+        tasks = [(unit, list(part)) for unit, part in groupby(chosen, lambda row: unit_of[row.set, row.name])]
+        thumbs = [thumb for part in workers.map(f"sheet {name}", _thumbs, tasks) for thumb in part]
         path = out_dir / f"sheet_{name}.jpg"
-        sheet = tile(list(thumbs))
+        sheet = tile(thumbs)
         if not cv2.imwrite(
             str(path), cv2.cvtColor(sheet, cv2.COLOR_RGB2BGR), [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY]
         ):
@@ -115,9 +126,14 @@ def write_sheets(
     return paths
 
 
-def _thumb(task: tuple[Unit, Row]) -> np.ndarray:
-    unit, row = task
-    small = cv2.resize(overlay(unit, row.name), _THUMB, interpolation=cv2.INTER_AREA)
+def _thumbs(task: tuple[Unit, list[Row]]) -> list[np.ndarray]:
+    unit, rows = task
+    pictures = overlays(unit, [row.name for row in rows])
+    return [_thumb(picture, row) for picture, row in zip(pictures, rows, strict=True)]
+
+
+def _thumb(picture: np.ndarray, row: Row) -> np.ndarray:
+    small = cv2.resize(picture, _THUMB, interpolation=cv2.INTER_AREA)
     strip = np.full((_CAPTION_PX, _THUMB[0], 3), _PAPER, np.uint8)
     cv2.putText(strip, caption(row), (8, 18), _INK, _FONT, 13, 500)
     return np.vstack([small, strip])

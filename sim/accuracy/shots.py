@@ -10,14 +10,16 @@ from scripts.frames import FrameSet
 from sim.accuracy.rows import Reference
 from sim.world.pose import Truth
 
-SHOWINGS = 9
-"""How often an independent picture is shown; the last time counts.
+SHOWINGS_LEAST = 9
+"""How often an independent picture is shown at least.
 
 The first showing has no thresholds. From the second on the firmware moves MIN_AREA from 100 px towards 30 (few shapes)
 or 150 (too many), where it is by the eighth showing; a test sees that it then stays.
 """
-SHOWINGS_OF_A_SECOND = 60
-"""Enough for every threshold factor that the firmware tries while it sees no pad, and for the usual one again."""
+SHOWINGS_STEADY = 4
+"""A picture in which the pad was seen so often in a row, the last time included, is not shown again."""
+SHOWINGS_MOST = 60
+"""A second: every threshold factor that the firmware tries while it sees no pad, and the usual one again."""
 
 
 @dataclass(frozen=True)
@@ -49,13 +51,13 @@ class Unit:
         set: Name of the set.
         shots: The frames in order.
         clip: Each frame follows the one before; else there is one frame, shown until everything has settled.
-        showings: How often a picture is shown.
+        showings: How often a picture is shown at most; a clip is shown as it is.
     """
 
     set: str
     shots: tuple[Shot, ...]
     clip: bool = False
-    showings: int = SHOWINGS
+    showings: int = SHOWINGS_MOST
 
     def __post_init__(self) -> None:
         if not self.shots or (len(self.shots) > 1 and not self.clip):

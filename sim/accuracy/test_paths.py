@@ -18,11 +18,11 @@ from scripts.errors import UserError
 from sim.accuracy.measure import measure_golden
 from sim.accuracy.options import compare, lines, load_variants
 from sim.accuracy.paper_rules import find_pad, ring_width_px
-from sim.accuracy.paths import Answer, golden, rtl
+from sim.accuracy.paths import Answer, golden, rtl, settled
 from sim.accuracy.photos import photo_units
 from sim.accuracy.rendered import rendered_units
 from sim.accuracy.rows import Reference, Row
-from sim.accuracy.shots import SHOWINGS, SHOWINGS_OF_A_SECOND, Film, Shot, Unit, develop
+from sim.accuracy.shots import SHOWINGS_LEAST, SHOWINGS_MOST, SHOWINGS_STEADY, Film, Shot, Unit, develop
 from sim.cosim.build import build_host
 from sim.views import views
 from sim.world.camera import Camera
@@ -93,7 +93,7 @@ def test_golden_and_rtl_say_the_same_of_a_clip(tmp_path: Path) -> None:
 @pytest.mark.full
 def test_golden_and_rtl_say_the_same_while_factors_are_tried(tmp_path: Path) -> None:
     build_host()
-    film = shadowed(26)
+    film = settled(shadowed(26))
     one, other = golden(film), rtl(film, tmp_path)
     assert len(set(factors(one))) > 1
     assert factors(one) == factors(other)
@@ -105,9 +105,9 @@ def test_golden_and_rtl_say_the_same_while_factors_are_tried(tmp_path: Path) -> 
 def test_golden_and_rtl_say_the_same_of_a_picture(index: int, tmp_path: Path) -> None:
     build_host()
     view = views(4, seed=5)[index]
-    film = develop(Unit("view", (shot("view", view.pose, view.look, view.seed),)))
+    film = settled(develop(Unit("view", (shot("view", view.pose, view.look, view.seed),))))
     one, other = golden(film), rtl(film, tmp_path)
-    assert len(one.frames) == SHOWINGS
+    assert len(one.frames) == SHOWINGS_LEAST
     assert_same(one, other)
 
 
@@ -119,10 +119,10 @@ def test_min_area_has_settled_when_a_picture_counts(image: np.ndarray | None) ->
         for x in range(20, 1260, 40):
             for y in range(20, 700, 40):
                 image[y : y + 13, x : x + 13] = 30
-    film = develop(Unit("s", (Shot("a", lambda: (image, Reference()), 1.0),), showings=SHOWINGS + 3))
+    film = develop(Unit("s", (Shot("a", lambda: (image, Reference()), 1.0),), showings=SHOWINGS_LEAST + 3))
     seen = [int(frame.record["header"]["min_area"]) for frame in golden(film).frames]
     assert len(set(seen)) > 1
-    assert len(set(seen[SHOWINGS - 1 :])) == 1, seen
+    assert len(set(seen[SHOWINGS_LEAST - 1 :])) == 1, seen
 
 
 def shadowed(showings: int) -> Film:
@@ -137,20 +137,21 @@ def factors(answer: Answer) -> list[int]:
 
 
 def test_the_golden_path_takes_the_factor_that_the_firmware_asks_for() -> None:
-    film = shadowed(SHOWINGS_OF_A_SECOND)
+    film = shadowed(SHOWINGS_MOST)
     answer = golden(film)
     told = factors(answer)
     assert told[:18] == [128] * 18
     assert told[18] == 96
     assert answer.seen[0].pad is not None
     assert told[-1] != 128
-    assert golden(replace(film, unit=replace(film.unit, showings=SHOWINGS))).seen[0].pad is None
+    assert [one.pad is not None for one in answer.before[-SHOWINGS_STEADY:]] == [False] + [True] * (SHOWINGS_STEADY - 1)
+    assert golden(replace(film, unit=replace(film.unit, showings=SHOWINGS_LEAST))).seen[0].pad is None
     assert set(factors(golden(film, Settings(factor=64)))) == {64}
 
 
 def test_a_second_shows_every_factor_and_the_usual_one_again() -> None:
     blank = Shot("a", lambda: (np.full((720, 1280, 3), 90, np.uint8), Reference()), 1.0)
-    told = factors(golden(develop(Unit("s", (blank,), showings=SHOWINGS_OF_A_SECOND))))
+    told = factors(golden(develop(Unit("s", (blank,)))))
     assert set(told[:37]) == {128, 96, 72, 160}
     assert told[36:54] == [128] * 18
 
@@ -198,7 +199,7 @@ def test_a_picture_counts_after_it_has_settled_and_a_clip_frame_by_frame() -> No
         assert one.pad is not None
         assert abs(one.pad.x_px - known.x_px) < 0.5
     picture = develop(Unit("s", film.unit.shots[2:]))
-    assert [int(one.record["header"]["frame_number"]) for one in golden(picture).seen] == [SHOWINGS]
+    assert [int(one.record["header"]["frame_number"]) for one in golden(picture).seen] == [SHOWINGS_LEAST]
 
 
 def test_the_papers_rules() -> None:
