@@ -21,7 +21,7 @@
 #define MIN_AREA_GREATEST_PX 150U
 // Of a square below the camera; 50 degrees off the axis its image is four times
 // smaller, 30 degrees off it nearly half, and the filters take its corners.
-#define SQUARE_SHARE_LEAST 0.15
+#define SQUARE_SHARE_LEAST 0.06
 #define SQUARE_SHARE_GREATEST 0.4
 // A window of 128x128 with less contrast shows paper or a black shape alone, and
 // is judged by its neighbour's threshold. The noise of a camera stays below it.

@@ -70,7 +70,8 @@ static void collect(const struct landing_record *record, const struct camera *ca
         candidate->clipped = object->box_min_x == 0U || object->box_min_y == 0U ||
                              (double)object->box_max_x >= right || (double)object->box_max_y >= bottom;
         const double invariant = candidate->shape.invariant;
-        if (!candidate->clipped && invariant >= SOLID_INVARIANT_MIN && invariant <= SOLID_INVARIANT_MAX) {
+        // One that touches the border may be whole all the same.
+        if (invariant >= SOLID_INVARIANT_MIN && invariant <= SOLID_INVARIANT_MAX) {
             scratch->solids[scratch->solid_count] = (uint16_t)scratch->count;
             scratch->solid_count++;
         }
@@ -88,12 +89,6 @@ static struct vector left_over(const struct detect_context *context, const struc
 
     pad_plane_moments(plane, context->camera, kind, sighting->clipped, &expected);
     return shape_offset(&expected, &sighting->seen);
-}
-
-static bool has_whole_pair(const struct reading *reading)
-{
-    return reading_has(reading, PAD_SQUARE | PAD_RECTANGLE) && !reading_of(reading, PAD_SQUARE)->clipped &&
-           !reading_of(reading, PAD_RECTANGLE)->clipped;
 }
 
 // The view explains all shapes together; near the centre the shapes that are
@@ -115,7 +110,7 @@ static void centre_of(const struct detect_context *context, const struct pad_pla
         x += left.x / (sigma * sigma);
         y += left.y / (sigma * sigma);
     }
-    if (has_whole_pair(reading)) {
+    if (reading_has_whole_pair(reading)) {
         const struct vector square = left_over(context, plane, reading, PAD_SQUARE);
         const struct vector rectangle = left_over(context, plane, reading, PAD_RECTANGLE);
         const struct shape *seen = &reading_of(reading, PAD_RECTANGLE)->seen;
@@ -141,7 +136,7 @@ static struct vector direction_up(const struct detect_context *context, const st
     pad_plane_project(plane, context->camera, RECTANGLE_CENTRE_X_MM, RECTANGLE_CENTRE_Y_MM, &rectangle.x,
                       &rectangle.y);
     struct vector up = {.x = square.x - rectangle.x, .y = square.y - rectangle.y};
-    if (has_whole_pair(reading)) {
+    if (reading_has_whole_pair(reading)) {
         const struct vector square_left = left_over(context, plane, reading, PAD_SQUARE);
         const struct vector rectangle_left = left_over(context, plane, reading, PAD_RECTANGLE);
         up.x += square_left.x - rectangle_left.x;

@@ -10,13 +10,16 @@
 #define DOUBT_RING 3.0    // for all of the ring's print, where the frame would show it
 #define DOUBT_CLUTTER 2.0 // for dark things inside the ring that weigh as much as the rectangle
 #define DOUBT_NO_RING 0.5
+#define NO_RING_BROKEN_MIN 1.0 // of DOUBT_RING: most of the ring is missing where the frame would show it
 #define DOUBT_MISSING 1.5 // for a square, rectangle or small ring that should be there
 #define HEIGHT_TOLERANCE 0.25
 #define HEIGHT_TOLERANCE_M 0.1
 #define DOUBT_HEIGHT 1.0 // for a LiDAR reading that contradicts the size
 // Of a ring in pieces that is not whole enough to be fitted, any grass may be a part.
 #define PIECES_DOUBT_MAX 1.2
-#define PIECES_DOUBT_CROWDED_MAX 0.8 // under other thresholds than the usual ones, among more than a record holds
+#define PIECES_DOUBT_SEARCHING_MAX 1.08 // under other thresholds than the usual ones
+#define PIECES_DOUBT_CROWDED_MAX 0.6    // and among more than a record holds
+#define CUT_DOUBT_MAX 0.5 // the border cuts the square, the rectangle or both
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
 // With only one of square and rectangle there is little to contradict a view.
@@ -24,9 +27,9 @@
 // Ring and what is inside as one: few numbers, so they have to be right.
 #define FUSED_DOUBT_MAX 0.8
 // From afar the opening takes the ring. What is left must be nearly ideal, of the
-// right size, and lie as the autopilot's attitude says.
+// right size, lie as the autopilot's attitude says, and be seen with the usual
+// factor: other factors, tried for long enough, show two such specks in any grass.
 #define FAR_DOUBT_MAX 0.6
-#define FAR_DOUBT_SEARCHING_MAX 0.27
 #define ATTITUDE_SIGMA 0.1
 #define FAR_RING_WIDTH_PX 6.5
 #define FAR_HEIGHT_TOLERANCE 0.12
@@ -69,6 +72,23 @@ static bool far_enough(const struct detect_context *context, const struct readin
     return fabs(pad_plane_height_m(&plane) - expected_m) <= FAR_HEIGHT_TOLERANCE * expected_m + FAR_HEIGHT_TOLERANCE_M;
 }
 
+// How much doubt is allowed where the pair has no other witness than the ring.
+static double pieces_doubt_max(const struct detect_context *context, const struct reading *reading)
+{
+    const bool searching = context->hint->searching;
+
+    if (!reading_has_whole_pair(reading)) {
+        return searching || context->crowded ? 0.0 : CUT_DOUBT_MAX;
+    }
+    // Clutter can be pieced together to anything, a whole ring too.
+    if (reading_has(reading, PAD_RING) && !(searching && reading_of(reading, PAD_RING)->pieces)) {
+        return HUGE_VAL;
+    }
+    return !searching          ? PIECES_DOUBT_MAX
+           : context->crowded ? PIECES_DOUBT_CROWDED_MAX
+                               : PIECES_DOUBT_SEARCHING_MAX;
+}
+
 // How far the view is from being believed; a negative number if it cannot be at all.
 double doubt_of(const struct detect_context *context, const struct reading *reading, const struct pad_view *view,
                 double misfit, double worst)
@@ -86,8 +106,9 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     if (fabs(view->value[PAD_EDGE_PX]) > EDGE_MAX_PX || tilt > TILT_MAX || worst > WORST_MAX) {
         return -1.0;
     }
+    const bool contradicts = contradicts_lidar(context, view);
     const double doubt = misfit + DOUBT_CLUTTER * reading->clutter + DOUBT_MISSING * reading->missing +
-                         (contradicts_lidar(context, view) ? DOUBT_HEIGHT : 0.0);
+                         (contradicts ? DOUBT_HEIGHT : 0.0);
     if (fused) {
         return reading_has(reading, PAD_RING) && doubt <= FUSED_DOUBT_MAX ? doubt : -1.0;
     }
@@ -96,20 +117,23 @@ double doubt_of(const struct detect_context *context, const struct reading *read
         hypot(view->value[PAD_TILT_X], view->value[PAD_TILT_Y]) > UNCONFIRMED_TILT) {
         return -1.0;
     }
-    const double broken = DOUBT_RING * fmax(0.0, missing - (1.0 - RING_SHARE_WHOLE));
+    // Among clutter pieces of a thin ring are found anywhere.
+    const bool clutter = context->hint->searching || context->crowded;
+    const double excused = fmax(1.0 - RING_SHARE_WHOLE, clutter ? 0.0 : reading->ring_thin);
+    const double broken = DOUBT_RING * fmax(0.0, missing - excused);
     // Two of three that do not depend on each other, one of them the pair or half of it.
     if (pair && small_ring) {
-        return doubt + DOUBT_NO_RING * broken;
+        // Small shapes inside a wrong ring are a pad seen from higher up, but for the LiDAR.
+        return broken < NO_RING_BROKEN_MIN || !contradicts ? doubt + DOUBT_NO_RING * broken : -1.0;
     }
     if (pair && ring) {
-        const bool whole = reading_has(reading, PAD_RING);
-        const double pieces_max =
-            context->hint->searching && context->crowded ? PIECES_DOUBT_CROWDED_MAX : PIECES_DOUBT_MAX;
-        return whole || doubt + broken <= pieces_max ? doubt + broken : -1.0;
+        return doubt + broken <= pieces_doubt_max(context, reading) ? doubt + broken : -1.0;
     }
     if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
         return doubt + broken <= CLOSE_DOUBT_MAX ? doubt + broken : -1.0;
     }
-    const double far_max = context->hint->searching ? FAR_DOUBT_SEARCHING_MAX : FAR_DOUBT_MAX;
-    return pair && far_enough(context, reading, view) && doubt <= far_max ? doubt : -1.0;
+    return reading_has_whole_pair(reading) && !context->hint->searching && far_enough(context, reading, view) &&
+                   doubt <= FAR_DOUBT_MAX
+               ? doubt
+               : -1.0;
 }

@@ -35,6 +35,7 @@
 #define AREA_SIGMA 0.02
 #define SPREAD_SIGMA_PX 0.10
 #define SPREAD_SIGMA 0.015
+#define FACING_MIN 0.2
 #define PIECES_FACTOR 3.0
 #define CLIPPED_SIGMA_PX 0.5
 #define CLIPPED_SIGMA_SIZE 0.01
@@ -57,8 +58,10 @@ static void add(struct terms *terms, double difference, double sigma)
 }
 
 // Residuals of one sighting. All are lengths in pixels before they are divided.
+// `facing`: cosine of the angle at which the plane is seen. Obliquely, two corners
+// of a square are acute, and the opening takes more of them than of the others.
 static void compare(struct terms *terms, const struct sighting *sighting, const struct shape *expected, double inside,
-                    double edge_px)
+                    double edge_px, double facing)
 {
     const struct shape *seen = &sighting->seen;
     const bool ring = (sighting->kinds & PAD_RING) != 0U;
@@ -111,7 +114,7 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
         xy += move * expected->cov_xy;
     }
     const double spread_sigma =
-        doubt * (ring ? RING_SIGMA_PX + RING_SIGMA_SIZE * spread : SPREAD_SIGMA_PX + SPREAD_SIGMA * spread);
+        doubt * (ring ? RING_SIGMA_PX + RING_SIGMA_SIZE * spread : (SPREAD_SIGMA_PX + SPREAD_SIGMA * spread) / facing);
     add(terms, (seen->cov_xx - xx) / (2.0 * spread), spread_sigma);
     add(terms, (seen->cov_xy - xy) / (2.0 * spread), spread_sigma);
     add(terms, (seen->cov_yy - yy) / (2.0 * spread), spread_sigma);
@@ -121,6 +124,7 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
 struct expectation {
     struct shape shapes[PAD_FIT_SIGHTINGS];
     double inside[PAD_FIT_SIGHTINGS];
+    double facing;
 };
 
 static int expect(const struct pad_evidence *evidence, const struct camera *camera, const struct pad_view *view,
@@ -131,6 +135,7 @@ static int expect(const struct pad_evidence *evidence, const struct camera *came
     if (pad_plane_of(view, camera, &plane) != 0) {
         return PAD_FIT_E_LOST;
     }
+    expectation->facing = fmax(pad_plane_facing(&plane), FACING_MIN);
     for (int i = 0; i < evidence->count; i++) {
         const struct sighting *sighting = &evidence->sightings[i];
         struct shape *shape = &expectation->shapes[i];
@@ -147,7 +152,8 @@ static void residuals_of(const struct pad_evidence *evidence, const struct expec
 {
     terms->count = 0;
     for (int i = 0; i < evidence->count; i++) {
-        compare(terms, &evidence->sightings[i], &expectation->shapes[i], expectation->inside[i], edge_px);
+        compare(terms, &evidence->sightings[i], &expectation->shapes[i], expectation->inside[i], edge_px,
+                expectation->facing);
     }
 }
 

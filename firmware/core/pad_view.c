@@ -69,6 +69,11 @@ int pad_plane_of(const struct pad_view *view, const struct camera *camera, struc
     return 0;
 }
 
+double pad_plane_facing(const struct pad_plane *plane)
+{
+    return fabs(dot(plane->centre, plane->normal)) / sqrt(dot(plane->centre, plane->centre));
+}
+
 static void point_of(const struct pad_plane *plane, double x_mm, double y_mm, double point[3])
 {
     for (int i = 0; i < 3; i++) {

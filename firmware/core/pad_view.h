@@ -49,6 +49,9 @@ void pad_plane_project(const struct pad_plane *plane, const struct camera *camer
 int pad_plane_unproject(const struct pad_plane *plane, const struct camera *camera, double x_px, double y_px,
                         double *x_mm, double *y_mm);
 
+// Cosine of the angle between the plane's normal and the ray to the pad's centre.
+double pad_plane_facing(const struct pad_plane *plane);
+
 // Moments of the image of the shapes in `kinds`, taken as one. `clipped`: only
 // what lies inside the frame, on a finer grid; else the whole, as if the frame
 // had no border. The invariant is not computed.

@@ -26,6 +26,8 @@
 #define PIECE_RADIUS_MIN_MM 90.0
 #define PIECE_RADIUS_MAX_MM 135.0
 #define RING_REACH 1.7 // of its root mean square radius in the image
+#define THIN_WIDTH_PX 7.0
+#define THIN_PLACES 8
 
 // How much doubt a view may leave: its misfit, and what is missing or does not belong.
 #define MISSING_INSIDE_MIN 0.9
@@ -58,6 +60,12 @@ bool reading_same(const struct reading *a, const struct reading *b)
 bool reading_has(const struct reading *reading, unsigned kinds)
 {
     return (reading->kinds & kinds) == kinds;
+}
+
+bool reading_has_whole_pair(const struct reading *reading)
+{
+    return reading_has(reading, PAD_SQUARE | PAD_RECTANGLE) && !reading_of(reading, PAD_SQUARE)->clipped &&
+           !reading_of(reading, PAD_RECTANGLE)->clipped;
 }
 
 static void add_sighting(struct reading *reading, unsigned kinds, const struct shape *seen, bool clipped, bool pieces)
@@ -170,6 +178,31 @@ static bool is_sighted(const struct reading *reading, const struct shape *shape)
     return false;
 }
 
+// Share of a ring's outline where it is too thin: seen obliquely, it is thinnest
+// where it lies across the line of sight.
+static double thin_share(const struct shape *ring, double mean_width_px)
+{
+    double long_px;
+    double short_px;
+    struct vector axis;
+    int thin = 0;
+
+    shape_axes(ring, &long_px, &short_px, &axis);
+    const double least = short_px / long_px;
+    // Width along the outline of an ellipse, in parts of its greatest.
+    double widths[THIN_PLACES];
+    double sum = 0.0;
+    for (int i = 0; i < THIN_PLACES; i++) {
+        const double square = (i + 0.5) / THIN_PLACES; // of the sine: places are denser at the ends, as print is
+        widths[i] = least / sqrt(square + least * least * (1.0 - square));
+        sum += widths[i];
+    }
+    for (int i = 0; i < THIN_PLACES; i++) {
+        thin += widths[i] * THIN_PLACES * mean_width_px < THIN_WIDTH_PX * sum ? 1 : 0;
+    }
+    return (double)thin / THIN_PLACES;
+}
+
 static void match_ring(const struct detect_context *context, const struct pad_plane *plane, double edge_px,
                        struct reading *reading)
 {
@@ -187,6 +220,7 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     const double edges_px = pad_edges_px(PAD_RING, &expected, inside);
     const double area_px = fmax(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
     reading->ring_width_px = 2.0 * area_px / edges_px;
+    reading->ring_thin = thin_share(&expected, reading->ring_width_px);
     // The disc, in any direction, from wherever the border has moved the centroid to.
     const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / fmax(inside, 0.3);
     for (int i = 0; i < context->scratch->count; i++) {

@@ -27,6 +27,7 @@ struct reading {
     double clutter;     // dark things inside the ring that are not of the pad, in rectangles
     int missing;        // inner shapes that should be seen and are not
     double ring_width_px;
+    double ring_thin; // share of the ring's print that is so thin in the image that the opening may take it
     unsigned kinds;
 };
 
@@ -40,6 +41,9 @@ bool reading_same(const struct reading *a, const struct reading *b);
 
 // True when all of these shapes were found, each for itself.
 bool reading_has(const struct reading *reading, unsigned kinds);
+
+// True when square and rectangle were found, and no border cuts them.
+bool reading_has_whole_pair(const struct reading *reading);
 
 // The sighting of one shape by itself; NULL if there is none.
 const struct sighting *reading_of(const struct reading *reading, unsigned kind);

@@ -211,9 +211,9 @@ static uint32_t rest_at(uint32_t altitude_mm, uint32_t age_us)
 
 static void test_min_area_of_a_height(void)
 {
-    test_case("the LiDAR says how small a shape of the pad can be: 0.15 of the square's area below the camera");
-    CHECK(rest_at(1500U, 0U) == 50U);
-    CHECK(rest_at(1000U, 0U) == 114U);
+    test_case("the LiDAR says how small a shape of the pad can be: 0.06 of the square's area below the camera");
+    CHECK(rest_at(1000U, 0U) == 45U);
+    CHECK(rest_at(750U, 0U) == 81U);
     CHECK(rest_at(500U, 0U) == 150U);
     CHECK(rest_at(3000U, 0U) == 30U);
     test_case("a reading that is too old says nothing");

@@ -169,11 +169,11 @@ static void test_factors(void)
         CHECK(factor() == 128U);
         show(&empty); // bridged frames show no pad either
     }
-    CHECK(factor() == 96U);
+    CHECK(factor() == 160U);
     for (int i = 0; i < 20; i++) {
         show(&with_pad);
     }
-    CHECK(factor() == 96U);
+    CHECK(factor() == 160U);
     CHECK((app_threshold_register(&app) & LANDING_REG_THRESHOLD_FLAT_LIMIT_MASK) >>
               LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT ==
           16U);

@@ -16,7 +16,7 @@ static void miss(int frames)
 
 static void test_walks(void)
 {
-    static const uint32_t others[] = {96U, 72U, 160U};
+    static const uint32_t others[] = {160U, 208U, 96U, 72U};
 
     search = (struct factor_search){0};
     for (int round = 0; round < 2; round++) {
@@ -40,12 +40,12 @@ static void test_stays(void)
     search = (struct factor_search){0};
     miss(18);
     for (int i = 0; i < 100; i++) {
-        factor_search_update(&search, true, 96U);
+        factor_search_update(&search, true, 160U);
         miss(5);
     }
-    CHECK(factor_search_factor(&search) == 96U);
+    CHECK(factor_search_factor(&search) == 160U);
     miss(1);
-    CHECK(factor_search_factor(&search) == 72U);
+    CHECK(factor_search_factor(&search) == 208U);
 }
 
 static void test_factor_before(void)
@@ -56,11 +56,11 @@ static void test_factor_before(void)
     for (int i = 0; i < 100; i++) {
         factor_search_update(&search, false, USUAL);
     }
-    CHECK(factor_search_factor(&search) == 96U);
+    CHECK(factor_search_factor(&search) == 160U);
     miss(5);
     factor_search_update(&search, true, USUAL);
     miss(1);
-    CHECK(factor_search_factor(&search) == 72U);
+    CHECK(factor_search_factor(&search) == 208U);
 }
 
 void test_factor_search(void)
