@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Connected components of a binary picture with exact integer features: runs, and a union-find over all of them.
+"""Connected components of a binary picture with exact integer features: runs, and the least run that each hangs on.
 
 Works on the whole picture at once and shares no idea with the RTL but the definition of a component.
 """
@@ -67,19 +67,21 @@ def _roots(y: np.ndarray, first: np.ndarray, last: np.ndarray, width: int) -> np
     start, end = y * pitch + first, y * pitch + last
     lowest = np.searchsorted(end, start - pitch - 1, side="left")
     behind = np.searchsorted(start, end - pitch + 1, side="right")
-    parent = list(range(y.size))
-
-    def find(run: int) -> int:
-        while parent[run] != run:
-            parent[run] = parent[parent[run]]
-            run = parent[run]
-        return run
-
-    for run, (low, high) in enumerate(zip(lowest.tolist(), behind.tolist(), strict=True)):
-        for above in range(low, high):
-            a, b = find(above), find(run)
-            parent[max(a, b)] = min(a, b)
-    return np.array([find(run) for run in range(y.size)], np.int64)
+    # Every pair of runs that touch: the later one, and each of its neighbours in the line above.
+    counts = np.maximum(behind - lowest, 0)
+    later = np.repeat(np.arange(y.size), counts)
+    above = np.repeat(lowest - np.concatenate([[0], np.cumsum(counts)[:-1]]), counts) + np.arange(later.size)
+    parent = np.arange(y.size)
+    while True:
+        one, other = parent[above], parent[later]
+        apart = one != other
+        if not apart.any():
+            return parent
+        one, other = one[apart], other[apart]
+        # Roots hang below the least root that they touch; then every run hangs below its root again.
+        np.minimum.at(parent, np.maximum(one, other), np.minimum(one, other))
+        while not np.array_equal(parent, parent[parent]):
+            parent = parent[parent]
 
 
 def _triangle(n: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@
 
 // A shape smaller than this has edges that are as large as itself.
 #define AREA_MIN_PX 20.0
+#define CROWD 150
 #define SOLID_INVARIANT_MIN 10.3
 #define SOLID_INVARIANT_MAX 13.4
 
@@ -204,7 +205,7 @@ static int fit(const struct detect_context *context, bool fused, struct pad_view
 
     // The first fit brings all shapes into reach; the second uses them, if there are others now.
     for (int round = 0; round < 2; round++) {
-        if (reading_take(context, view, fused, reading) != 0 || reading->evidence.count < 2) {
+        if (reading_take(context, view, fused, round > 0, reading) != 0 || reading->evidence.count < 2) {
             return DETECT_E_NO_PAD;
         }
         if (round > 0 && reading_same(reading, &before)) {
@@ -269,11 +270,16 @@ static int try_all(const struct detect_context *context, const struct hypotheses
 int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,
                uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad)
 {
-    const struct detect_context context = {.scratch = scratch, .camera = camera, .hint = hint, .options = options,
-                                           .crowded = record->header.objects_dropped != 0U};
     struct hypotheses hypotheses = {.count = 0};
 
     collect(record, camera, scratch);
+    const struct detect_context context = {
+        .scratch = scratch,
+        .camera = camera,
+        .hint = hint,
+        .options = options,
+        .crowded = record->header.objects_dropped != 0U || scratch->count >= CROWD,
+    };
     hypotheses_from_pairs(scratch, camera, hint->height_m, options, &hypotheses);
     if (try_all(&context, &hypotheses, pad) == 0) {
         return 0;

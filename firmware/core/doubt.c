@@ -8,6 +8,8 @@
 
 // Weights of what is missing or does not belong, beside the misfit.
 #define DOUBT_RING 3.0    // for all of the ring's print, where the frame would show it
+#define EXCUSED_MAX 0.4       // of it, where it is too thin to be seen
+#define EXCUSED_THIN_MAX 0.99 // unless nearly all of it is
 #define DOUBT_CLUTTER 2.0 // for dark things inside the ring that weigh as much as the rectangle
 #define DOUBT_NO_RING 0.5
 #define NO_RING_BROKEN_MIN 1.0 // of DOUBT_RING: most of the ring is missing where the frame would show it
@@ -18,7 +20,9 @@
 // Of a ring in pieces that is not whole enough to be fitted, any grass may be a part.
 #define PIECES_DOUBT_MAX 1.2
 #define PIECES_DOUBT_SEARCHING_MAX 1.08 // under other thresholds than the usual ones
-#define PIECES_DOUBT_CROWDED_MAX 0.6    // and among more than a record holds
+#define PIECES_DOUBT_CROWDED_MAX 0.8    // among many objects
+#define PIECES_DOUBT_CLUTTER_MAX 0.6    // both
+#define PATCHED_DOUBT_CROWDED_MAX 1.0   // pieces that make a whole ring
 #define CUT_DOUBT_MAX 0.5 // the border cuts the square, the rectangle or both
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
@@ -29,7 +33,7 @@
 // From afar the opening takes the ring. What is left must be nearly ideal, of the
 // right size, lie as the autopilot's attitude says, and be seen with the usual
 // factor: other factors, tried for long enough, show two such specks in any grass.
-#define FAR_DOUBT_MAX 0.6
+#define FAR_DOUBT_MAX 0.42
 #define ATTITUDE_SIGMA 0.1
 #define FAR_RING_WIDTH_PX 6.5
 #define FAR_HEIGHT_TOLERANCE 0.12
@@ -80,13 +84,14 @@ static double pieces_doubt_max(const struct detect_context *context, const struc
     if (!reading_has_whole_pair(reading)) {
         return searching || context->crowded ? 0.0 : CUT_DOUBT_MAX;
     }
-    // Clutter can be pieced together to anything, a whole ring too.
-    if (reading_has(reading, PAD_RING) && !(searching && reading_of(reading, PAD_RING)->pieces)) {
-        return HUGE_VAL;
+    const double pieces = context->crowded ? (searching ? PIECES_DOUBT_CLUTTER_MAX : PIECES_DOUBT_CROWDED_MAX)
+                                           : (searching ? PIECES_DOUBT_SEARCHING_MAX : PIECES_DOUBT_MAX);
+    if (!reading_has(reading, PAD_RING)) {
+        return pieces;
     }
-    return !searching          ? PIECES_DOUBT_MAX
-           : context->crowded ? PIECES_DOUBT_CROWDED_MAX
-                               : PIECES_DOUBT_SEARCHING_MAX;
+    // Clutter can be pieced together to anything, a whole ring too.
+    const double patched = searching ? pieces : context->crowded ? PATCHED_DOUBT_CROWDED_MAX : HUGE_VAL;
+    return reading_of(reading, PAD_RING)->pieces ? patched : HUGE_VAL;
 }
 
 // How far the view is from being believed; a negative number if it cannot be at all.
@@ -117,9 +122,10 @@ double doubt_of(const struct detect_context *context, const struct reading *read
         hypot(view->value[PAD_TILT_X], view->value[PAD_TILT_Y]) > UNCONFIRMED_TILT) {
         return -1.0;
     }
-    // Among clutter pieces of a thin ring are found anywhere.
+    // Pieces of a ring that is thin all round, or among clutter, are found anywhere.
     const bool clutter = context->hint->searching || context->crowded;
-    const double excused = fmax(1.0 - RING_SHARE_WHOLE, clutter ? 0.0 : reading->ring_thin);
+    const double thin = clutter || reading->ring_thin > EXCUSED_THIN_MAX ? 0.0 : fmin(reading->ring_thin, EXCUSED_MAX);
+    const double excused = fmax(1.0 - RING_SHARE_WHOLE, thin);
     const double broken = DOUBT_RING * fmax(0.0, missing - excused);
     // Two of three that do not depend on each other, one of them the pair or half of it.
     if (pair && small_ring) {

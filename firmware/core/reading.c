@@ -25,6 +25,10 @@
 // The ring: root mean square distance of a piece from the centre, and how much must be seen.
 #define PIECE_RADIUS_MIN_MM 90.0
 #define PIECE_RADIUS_MAX_MM 135.0
+// The same once the view is fitted; what lies on the paper beside it, up to its edge, does not belong.
+#define FITTED_PIECE_RADIUS_MIN_MM 95.0
+#define FITTED_PIECE_RADIUS_MAX_MM 131.0
+#define MARGIN_MM 145.0
 #define RING_REACH 1.7 // of its root mean square radius in the image
 #define THIN_WIDTH_PX 7.0
 #define THIN_PLACES 8
@@ -203,8 +207,13 @@ static double thin_share(const struct shape *ring, double mean_width_px)
     return (double)thin / THIN_PLACES;
 }
 
+static bool between(double square, double least, double greatest)
+{
+    return square > least * least && square < greatest * greatest;
+}
+
 static void match_ring(const struct detect_context *context, const struct pad_plane *plane, double edge_px,
-                       struct reading *reading)
+                       bool fitted, struct reading *reading)
 {
     struct shape expected;
     struct shape_sum ring = {.area_px = 0.0};
@@ -232,13 +241,14 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
             continue;
         }
         const double square = square_radius(context, plane, shape);
-        if (square > SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM &&
-            square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !is_sighted(reading, shape)) {
+        const bool piece = between(square, fitted ? FITTED_PIECE_RADIUS_MIN_MM : PIECE_RADIUS_MIN_MM,
+                                   fitted ? FITTED_PIECE_RADIUS_MAX_MM : PIECE_RADIUS_MAX_MM);
+        if (!piece && between(square, SMALL_RING_OUTER_RADIUS_MM, fitted ? MARGIN_MM : PIECE_RADIUS_MIN_MM) &&
+            !is_sighted(reading, shape)) {
             reading->clutter +=
                 shape->area_px / (area_px / inside) * pad_area_mm2(PAD_RING) / pad_area_mm2(PAD_RECTANGLE);
         }
-        if (!(square > PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM) ||
-            !(square < PIECE_RADIUS_MAX_MM * PIECE_RADIUS_MAX_MM)) {
+        if (!piece) {
             continue;
         }
         shape_sum_add(&ring, shape);
@@ -275,7 +285,8 @@ static void match_fused(const struct detect_context *context, const struct pad_p
     }
 }
 
-int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused, struct reading *reading)
+int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused, bool fitted,
+                 struct reading *reading)
 {
     struct pad_plane plane;
     const double edge_px = view->value[PAD_EDGE_PX];
@@ -291,6 +302,6 @@ int reading_take(const struct detect_context *context, const struct pad_view *vi
         match(context, &plane, edge_px, PAD_RECTANGLE, reading);
         match(context, &plane, edge_px, PAD_SMALL_RING, reading);
     }
-    match_ring(context, &plane, edge_px, reading);
+    match_ring(context, &plane, edge_px, fitted, reading);
     return 0;
 }

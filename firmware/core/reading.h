@@ -16,7 +16,7 @@ struct detect_context {
     const struct camera *camera;
     const struct detect_hint *hint;
     uint32_t options;
-    bool crowded; // the record had no room for all objects
+    bool crowded; // so many objects that some lie as a pad's would
 };
 
 // What a view makes of the record.
@@ -31,9 +31,10 @@ struct reading {
     unsigned kinds;
 };
 
-// `fused`: all that lies inside the ring is taken as one shape.
+// `fused`: all that lies inside the ring is taken as one shape. `fitted`: the view
+// is no guess any more, so that what is not quite in its place does not belong.
 // Fails when the view is of nothing that the camera could see.
-int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused,
+int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused, bool fitted,
                  struct reading *reading);
 
 // True when the same objects were taken for the same shapes.

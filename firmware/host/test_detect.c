@@ -177,6 +177,22 @@ static bool upper_piece(double x_mm, double y_mm)
     return right_piece(-y_mm, x_mm);
 }
 
+// A speck between the ring and the edge of the paper.
+static bool beside(double x_mm, double y_mm)
+{
+    return fabs(x_mm - 138.0) < 8.0 && fabs(y_mm) < 12.0;
+}
+
+// Square, rectangle and half of the ring.
+static void paint_half(const struct scene *scene)
+{
+    scene_clear(&record);
+    scene_paint(&record, scene, upper_piece);
+    scene_paint(&record, scene, left_piece);
+    scene_paint(&record, scene, scene_square);
+    scene_paint(&record, scene, scene_rectangle);
+}
+
 static void test_broken_ring(void)
 {
     const struct scene scene = {.height_m = 1.1, .right_m = 0.2, .heading_deg = 50.0};
@@ -195,11 +211,7 @@ static void test_broken_ring(void)
     const double doubt = pad.doubt;
     CHECK(!find(DETECT_ALL & ~DETECT_RING_PIECES));
     test_case("with half of the ring, there is more doubt");
-    scene_clear(&record);
-    scene_paint(&record, &scene, upper_piece);
-    scene_paint(&record, &scene, left_piece);
-    scene_paint(&record, &scene, scene_square);
-    scene_paint(&record, &scene, scene_rectangle);
+    paint_half(&scene);
     CHECK(find(DETECT_ALL));
     NEAR(pad.ring_share, 0.5, 0.1);
     CHECK(pad.doubt > doubt + 0.5);
@@ -237,8 +249,117 @@ static void test_far(void)
     CHECK(pad.doubt > doubt + 0.5);
 }
 
+static bool find_with(const struct detect_hint *hint)
+{
+    return detect_pad(&record, &camera_default, hint, DETECT_ALL, &scratch, &pad) == 0;
+}
+
+// Other factors than the usual one show much that is no pad, and a full record holds the least of it.
+static void test_clutter_needs_more(void)
+{
+    const struct scene far = {.height_m = 2.4, .right_m = 0.3, .heading_deg = 75.0};
+    const struct scene near = {.height_m = 1.1, .right_m = 0.2, .heading_deg = 50.0};
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = 2.45};
+
+    test_case("two specks are no pad while factors are tried");
+    scene_clear(&record);
+    scene_paint(&record, &far, scene_square);
+    scene_paint(&record, &far, scene_rectangle);
+    CHECK(find_with(&hint));
+    hint.searching = true;
+    CHECK(!find_with(&hint));
+    test_case("half of a ring is nothing when the record is full");
+    hint.height_m = near.height_m;
+    hint.searching = false;
+    paint_half(&near);
+    CHECK(find_with(&hint));
+    record.header.objects_dropped = 1U;
+    CHECK(!find_with(&hint));
+    test_case("three quarters of it are enough");
+    scene_paint(&record, &near, right_piece);
+    CHECK(find_with(&hint));
+    CHECK(pad.doubt > 0.1 && pad.doubt < 0.8);
+    test_case("what lies on the paper beside the ring does not belong");
+    record.header.objects_dropped = 0U;
+    const double doubt = pad.doubt;
+    scene_paint(&record, &near, beside);
+    CHECK(find_with(&hint));
+    CHECK(pad.doubt > doubt + 0.1);
+    test_case("a whole pad is found all the same");
+    scene_clear(&record);
+    scene_paint_pad(&record, &near);
+    record.header.objects_dropped = 1U;
+    CHECK(find_with(&hint));
+    check_centre(&near, 0.2);
+}
+
+// The frame's border touches the rectangle, or cuts into it.
+static void test_pair_at_the_border(void)
+{
+    struct scene scene = {.height_m = 0.8, .right_m = 1.36, .heading_deg = -90.0};
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = scene.height_m};
+    uint32_t touching = 0U;
+
+    test_case("square and rectangle that touch the border");
+    for (int i = 0; i < 40; i++) {
+        scene.right_m = 1.2 + 0.01 * i;
+        scene_clear(&record);
+        scene_paint(&record, &scene, scene_rectangle);
+        if (record.objects[0].box_max_x != 1279U) {
+            continue;
+        }
+        scene_paint(&record, &scene, scene_square);
+        scene_paint(&record, &scene, scene_ring);
+        hint.searching = false;
+        CHECK(find_with(&hint));
+        check_centre(&scene, 2.0);
+        hint.searching = true;
+        CHECK(!find_with(&hint));
+        touching++;
+        break;
+    }
+    CHECK(touching == 1U);
+}
+
+// Far off the axis the ring is thin where it lies across the line of sight, and the opening takes it there.
+static void test_thin_ring(void)
+{
+    const struct scene scene = {.height_m = 0.9, .right_m = 1.5, .heading_deg = 20.0};
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = scene.height_m};
+
+    test_case("what is too thin to be seen is no doubt");
+    paint_half(&scene);
+    CHECK(find_with(&hint));
+    check_centre(&scene, 0.5);
+    const double doubt = pad.doubt;
+    record.header.objects_dropped = 1U;
+    CHECK(!find_with(&hint) || pad.doubt > doubt + 0.3);
+}
+
+// Square, rectangle and small ring of half the size, inside the ring that is there: a LiDAR tells them apart.
+static void test_no_ring_and_another_height(void)
+{
+    const struct scene scene = {.height_m = 0.5, .heading_deg = 140.0};
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = scene.height_m};
+
+    test_case("no ring where one should be, and a LiDAR that contradicts");
+    scene_clear(&record);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    scene_paint(&record, &scene, scene_small_ring);
+    CHECK(find_with(&hint));
+    hint.height_m = 0.25;
+    CHECK(!find_with(&hint));
+    scene_paint(&record, &scene, scene_ring);
+    CHECK(find_with(&hint));
+}
+
 void test_detect(void)
 {
+    test_clutter_needs_more();
+    test_pair_at_the_border();
+    test_thin_ring();
+    test_no_ring_and_another_height();
     test_all_headings();
     test_heights_and_places();
     test_tilt();

@@ -63,10 +63,17 @@ def _amount(sigma: float, overshoot: float) -> float:
 
 def _edge_levels(sigma: float, amount: float) -> np.ndarray:
     """Levels of pixels at `_POSITIONS - 0.5` px from an edge from 0 to 1, which are the knots of its profile."""
+    blurred, detail = _profile(sigma)
+    return blurred + amount * detail
+
+
+@functools.lru_cache(maxsize=64)
+def _profile(sigma: float) -> tuple[np.ndarray, np.ndarray]:
+    """The edge blurred, and what sharpening adds to it."""
     step = (_POSITIONS > 0).astype(float)
     blurred = np.convolve(np.pad(step, _REACH, mode="edge"), _kernel(sigma), mode="same")
     wider = np.convolve(np.pad(blurred, _REACH, mode="edge"), _kernel(_SHARPEN_SIGMA), mode="same")[_REACH:-_REACH]
-    return (blurred + amount * (blurred - wider))[_REACH:-_REACH]
+    return blurred[_REACH:-_REACH], (blurred - wider)[_REACH:-_REACH]
 
 
 def _kernel(sigma: float) -> np.ndarray:
