@@ -93,8 +93,8 @@ frames: setup ## Whole frames through landing_core, every stream equal to golden
 	@$(PYTHON) -m sim.full_frames $(if $(PHOTOS),--photos $(PHOTOS))
 
 .PHONY: accuracy
-accuracy: setup ## How well the pad is found, against truth and goals: [FRAMES=folder] [RUN=golden|rtl] [COUNT=n] [SETS="a b"]
-	@$(PYTHON) -m sim.accuracy.run --jobs $(JOBS) --run "$(RUN)" $(if $(FRAMES),--frames "$(FRAMES)") $(if $(ALTITUDE),--altitude "$(ALTITUDE)") $(if $(COUNT),--count "$(COUNT)") $(if $(SETS),--sets $(SETS)) $(if $(filter-out 0,$(OPTIONS)),--options) $(if $(filter-out 0,$(NO_GOALS)),--no-goals)
+accuracy: setup ## How well the pad is found, against truth and goals: [FRAMES=folder] [RUN=golden|rtl] [COUNT=n] [SEED=n] [SETS="a b"]
+	@$(PYTHON) -m sim.accuracy.run --jobs $(JOBS) --run "$(RUN)" $(if $(FRAMES),--frames "$(FRAMES)") $(if $(ALTITUDE),--altitude "$(ALTITUDE)") $(if $(COUNT),--count "$(COUNT)") $(if $(SEED),--seed "$(SEED)") $(if $(SETS),--sets $(SETS)) $(if $(filter-out 0,$(OPTIONS)),--options) $(if $(filter-out 0,$(NO_GOALS)),--no-goals)
 
 .PHONY: calibrate
 calibrate: setup ## Measure the camera from photos of a chessboard or the pad: FRAMES=folder [BOARD=9x6|pad] [SQUARE_MM=25] [RADIAL=0|1|2]

@@ -35,12 +35,13 @@ BLINDED_EVERY = 12
 BLINDED_EV = 8.0
 
 
-def rendered_units(name: str, count: int | None = None) -> list[Unit]:
+def rendered_units(name: str, count: int | None = None, seed: int = 1) -> list[Unit]:
     """The units of a rendered set.
 
     Args:
         name: One of `SETS`.
         count: Frames, in a sweep of each strength; default is the set's own number.
+        seed: Another seed is another set of scenes.
 
     Raises:
         UserError: there is no such set.
@@ -48,7 +49,7 @@ def rendered_units(name: str, count: int | None = None) -> list[Unit]:
     if name not in SETS:
         raise UserError(f"there is no rendered set '{name}'; choose from: {', '.join(SETS)}.")
     source = "descent" if name == BLINDED else name
-    scenes = corpus(source, count or COUNTS.get(name, SWEEP_COUNT))
+    scenes = corpus(source, count or COUNTS.get(name, SWEEP_COUNT), seed)
     if name == BLINDED:
         scenes = _blinded(scenes)
     if name in CLIPS:

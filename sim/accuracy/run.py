@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How well the pad is found: photographs and rendered sets through the whole chain, compared with what is true.
 
-    python -m sim.accuracy.run [--frames FOLDER] [--run golden|rtl] [--count N] [--sets NAME ...] [--options]
+    python -m sim.accuracy.run [--frames FOLDER] [--run golden|rtl] [--count N] [--seed N] [--sets NAME ...] [--options]
 
 Prints tables and goals, and leaves rows, contact sheets and report.html in build/accuracy. Fails if a goal is not met.
 """
@@ -45,7 +45,9 @@ OPTION_ROWS = "options"
 RUNS = {"golden": measure_golden, "rtl": measure_rtl}
 
 
-def choose(sets: Sequence[str] | None, frames: str | None, altitude: str | None, count: int | None) -> list[Unit]:
+def choose(
+    sets: Sequence[str] | None, frames: str | None, altitude: str | None, count: int | None, seed: int = 1
+) -> list[Unit]:
     """The units of the sets that are asked for.
 
     Raises:
@@ -53,11 +55,13 @@ def choose(sets: Sequence[str] | None, frames: str | None, altitude: str | None,
     """
     if count is not None and count < 1:
         raise UserError(f"COUNT is {count}; give 1 or more.")
+    if seed < 0:
+        raise UserError(f"SEED is {seed}; give 0 or more.")
     names = list(dict.fromkeys(sets)) if sets else [*([PHOTOS] if frames else []), *SETS]
     units: list[Unit] = []
     for name in names:
         if name != PHOTOS:
-            units += rendered_units(name, count)
+            units += rendered_units(name, count, seed)
         elif frames is None:
             raise UserError("the set photos needs a folder of pictures; give FRAMES=folder.")
         else:
@@ -134,6 +138,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--altitude", help="metres, or a CSV file (default: altitude.csv of each set)")
     parser.add_argument("--sets", nargs="+", help=f"what to measure (default: all): {PHOTOS} {' '.join(SETS)}")
     parser.add_argument("--count", type=int, help="frames a rendered set (default: the set's own number)")
+    parser.add_argument("--seed", type=int, default=1, help="another seed, other rendered scenes (default: 1)")
     parser.add_argument("--run", choices=RUNS, default="golden", help="the golden models, or the verilated RTL")
     parser.add_argument("--options", action="store_true", help="compare the variants of options.toml instead")
     parser.add_argument("--write", action="store_true", help="write tables and pictures into docs/accuracy.md")
@@ -143,7 +148,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=OUT, help="folder for rows, pictures and report")
     options = parser.parse_args(arguments)
     start = time.monotonic()
-    units = choose(options.sets, options.frames, options.altitude, options.count)
+    units = choose(options.sets, options.frames, options.altitude, options.count, options.seed)
     build(options.run)
     with Workers(options.jobs, lambda text: print(text, flush=True)) as workers:
         if options.options:

@@ -15,7 +15,7 @@ from golden.chain import PAPER, Settings, run_chain
 from scripts.demo_decode import Line
 from scripts.demo_results import Pad
 from scripts.errors import UserError
-from sim.accuracy.measure import measure_golden
+from sim.accuracy.measure import measure_golden, rows_of
 from sim.accuracy.options import compare, lines, load_variants
 from sim.accuracy.paper_rules import find_pad, ring_width_px
 from sim.accuracy.paths import Answer, golden, rtl, settled
@@ -200,6 +200,26 @@ def test_a_picture_counts_after_it_has_settled_and_a_clip_frame_by_frame() -> No
         assert abs(one.pad.x_px - known.x_px) < 0.5
     picture = develop(Unit("s", film.unit.shots[2:]))
     assert [int(one.record["header"]["frame_number"]) for one in golden(picture).seen] == [SHOWINGS_LEAST]
+
+
+def test_a_false_pad_counts_in_any_showing() -> None:
+    pose = Pose(1.0, 0.2, -0.1, 30.0)
+
+    def unlike() -> tuple[np.ndarray, Reference]:
+        image, reference = drawn(pose, Look(), 3)
+        return image, replace(reference, present=False)
+
+    film = develop(Unit("s", (Shot("a", unlike, 1.0),)))
+    answer = golden(film)
+    pads = [one.pad is not None for one in (*answer.before, *answer.seen)]
+    (row,) = rows_of(film, answer)
+    assert row.strays == sum(pads) - 1 >= SHOWINGS_STEADY - 1
+    # The last showing without one does not make it good.
+    (late,) = rows_of(film, replace(answer, seen=[replace(answer.seen[0], pad=None)]))
+    assert late.pad is None
+    assert late.false
+    (clean,) = rows_of(film, replace(answer, seen=[replace(answer.seen[0], pad=None)], before=answer.before[:1]))
+    assert (clean.strays, clean.false) == (0, False)
 
 
 def test_the_papers_rules() -> None:

@@ -47,6 +47,7 @@ def test_two_frames_give_rows_sheets_and_a_report_whatever_the_number_of_process
         (["--sets", "sahrp"], "there is no rendered set 'sahrp'"),
         (["--sets", "photos"], "give FRAMES=folder"),
         (["--run", "hope"], "invalid choice: 'hope'"),
+        (["--sets", "sharp", "--seed", "-1"], "SEED is -1; give 0 or more"),
     ],
 )
 def test_a_mistake_is_one_sentence_and_a_failure(arguments: list[str], words: str) -> None:
