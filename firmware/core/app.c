@@ -208,7 +208,11 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     adapt_min_area(app, &record->header, &lidar, &camera);
     struct detect_hint hint = detect_no_hint;
     hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
-    hint.searching = !factor_search_is_usual(record->header.threshold_factor);
+    // The thresholds are those of the frame before: after a change, a frame's own factor is not theirs yet.
+    const uint32_t factor =
+        record->header.threshold_factor == app->factor_before ? app->factor_before : FACTOR_SEARCH_MIXED;
+    app->factor_before = record->header.threshold_factor;
+    hint.searching = !factor_search_is_usual(factor);
     attitude_tilt(&app->attitude, now_us, &hint.tilt);
     const bool seen = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
     const enum track_result track =
@@ -219,7 +223,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     const bool found = track != TRACK_NONE;
 
     if ((app->detect_options & DETECT_FACTORS) != 0U) {
-        factor_search_update(&app->factor_search, seen, record->header.threshold_factor);
+        factor_search_update(&app->factor_search, seen, factor);
     }
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 

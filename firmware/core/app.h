@@ -95,6 +95,7 @@ struct app {
     bool lidar_worked; // since power-up
     uint32_t min_area_px;
     struct factor_search factor_search;
+    uint32_t factor_before; // of the newest record: the next one has its thresholds
     uint32_t health[APP_HEALTH_FIELDS];
     uint32_t detect_options; // DETECT_*
     struct detect_scratch scratch;

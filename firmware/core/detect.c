@@ -16,9 +16,10 @@
 
 // A shape smaller than this has edges that are as large as itself.
 #define AREA_MIN_PX 20.0
-#define CROWD 150
 #define SOLID_INVARIANT_MIN 10.3
 #define SOLID_INVARIANT_MAX 13.4
+// Among so many objects some lie as a pad's would.
+#define CROWD 150
 
 // How much doubt a view may leave: its misfit, and what is missing or does not belong.
 #define DOUBT_MAX 2.0
@@ -33,7 +34,8 @@
 #define LINE_SIGMA_PX 0.03
 #define LINE_SIGMA_RING 0.001 // of the ring's diameter
 
-const struct detect_hint detect_no_hint = {.tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false};
+const struct detect_hint detect_no_hint = {
+    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false};
 
 // By rising area (Shell): bounded, in place.
 static void sort_solids(struct detect_scratch *scratch)

@@ -8,14 +8,19 @@
 
 // Weights of what is missing or does not belong, beside the misfit.
 #define DOUBT_RING 3.0    // for all of the ring's print, where the frame would show it
-#define EXCUSED_MAX 0.4       // of it, where it is too thin to be seen
-#define EXCUSED_THIN_MAX 0.99 // unless nearly all of it is
-#define DOUBT_CLUTTER 2.0 // for dark things inside the ring that weigh as much as the rectangle
+#define DOUBT_CLUTTER 2.0 // for dark things inside the ring or beside it that weigh as much as the rectangle
 #define DOUBT_NO_RING 0.5
-#define NO_RING_BROKEN_MIN 1.0 // of DOUBT_RING: most of the ring is missing where the frame would show it
+// Share of the ring that may be missing where it is too thin to be seen, unless it is all round.
+#define EXCUSED_MAX 0.4
+#define EXCUSED_THIN_MAX 0.99
+// A third of the ring or more is missing, in parts of DOUBT_RING.
+#define NO_RING_BROKEN_MIN 1.0
 #define DOUBT_MISSING 1.5 // for a square, rectangle or small ring that should be there
-#define HEIGHT_TOLERANCE 0.25
-#define HEIGHT_TOLERANCE_M 0.1
+// How far the LiDAR may be off: over grass or mounted elsewhere, and where all hangs on it.
+#define ROUGH_TOLERANCE 0.25
+#define ROUGH_TOLERANCE_M 0.1
+#define CLOSE_TOLERANCE 0.12
+#define CLOSE_TOLERANCE_M 0.05
 #define DOUBT_HEIGHT 1.0 // for a LiDAR reading that contradicts the size
 // Of a ring in pieces that is not whole enough to be fitted, any grass may be a part.
 #define PIECES_DOUBT_MAX 1.2
@@ -23,7 +28,8 @@
 #define PIECES_DOUBT_CROWDED_MAX 0.8    // among many objects
 #define PIECES_DOUBT_CLUTTER_MAX 0.6    // both
 #define PATCHED_DOUBT_CROWDED_MAX 1.0   // pieces that make a whole ring
-#define CUT_DOUBT_MAX 0.5 // the border cuts the square, the rectangle or both
+#define WHOLE_DOUBT_CROWDED_MAX 1.4     // a ring in one piece that has grown together with something
+#define CUT_DOUBT_MAX 0.5               // the border cuts the square, the rectangle or both
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
 // With only one of square and rectangle there is little to contradict a view.
@@ -36,8 +42,7 @@
 #define FAR_DOUBT_MAX 0.42
 #define ATTITUDE_SIGMA 0.1
 #define FAR_RING_WIDTH_PX 6.5
-#define FAR_HEIGHT_TOLERANCE 0.12
-#define FAR_HEIGHT_TOLERANCE_M 0.05
+#define FAR_FACING_MIN 0.7 // 45 degrees: farther off the axis too little of a square is left
 
 // Beyond these no view is one of a pad.
 #define WORST_MAX 5.0
@@ -53,27 +58,23 @@ double pad_plane_height_m(const struct pad_plane *plane)
            plane->normal[2];
 }
 
-static bool contradicts_lidar(const struct detect_context *context, const struct pad_view *view)
+// True when there is no reading of the LiDAR, or the view has its height, nearly enough.
+static bool agrees_with_lidar(const struct detect_context *context, const struct pad_plane *plane, double tolerance,
+                              double tolerance_m)
 {
-    struct pad_plane plane;
     const double expected_m = context->hint->height_m;
 
-    return expected_m > 0.0 && pad_plane_of(view, context->camera, &plane) == 0 &&
-           fabs(pad_plane_height_m(&plane) - expected_m) > HEIGHT_TOLERANCE * expected_m + HEIGHT_TOLERANCE_M;
+    return !(expected_m > 0.0) || fabs(pad_plane_height_m(plane) - expected_m) <= tolerance * expected_m + tolerance_m;
 }
 
 // True where the ring cannot be seen any more, and the LiDAR says so too.
-static bool far_enough(const struct detect_context *context, const struct reading *reading, const struct pad_view *view)
+static bool far_enough(const struct detect_context *context, const struct reading *reading,
+                       const struct pad_plane *plane)
 {
-    struct pad_plane plane;
-
-    if ((context->options & DETECT_FAR) == 0U || context->hint->tilt.sigma > ATTITUDE_SIGMA ||
-        reading->ring_width_px > FAR_RING_WIDTH_PX ||
-        pad_plane_of(view, context->camera, &plane) != 0) {
-        return false;
-    }
-    const double expected_m = context->hint->height_m;
-    return fabs(pad_plane_height_m(&plane) - expected_m) <= FAR_HEIGHT_TOLERANCE * expected_m + FAR_HEIGHT_TOLERANCE_M;
+    return (context->options & DETECT_FAR) != 0U && !context->hint->searching &&
+           context->hint->tilt.sigma <= ATTITUDE_SIGMA && context->hint->height_m > 0.0 &&
+           reading->ring_width_px <= FAR_RING_WIDTH_PX && pad_plane_facing(plane) >= FAR_FACING_MIN &&
+           agrees_with_lidar(context, plane, CLOSE_TOLERANCE, CLOSE_TOLERANCE_M);
 }
 
 // How much doubt is allowed where the pair has no other witness than the ring.
@@ -91,7 +92,8 @@ static double pieces_doubt_max(const struct detect_context *context, const struc
     }
     // Clutter can be pieced together to anything, a whole ring too.
     const double patched = searching ? pieces : context->crowded ? PATCHED_DOUBT_CROWDED_MAX : HUGE_VAL;
-    return reading_of(reading, PAD_RING)->pieces ? patched : HUGE_VAL;
+    const double single = context->crowded ? WHOLE_DOUBT_CROWDED_MAX : HUGE_VAL;
+    return reading_of(reading, PAD_RING)->pieces ? patched : single;
 }
 
 // How far the view is from being believed; a negative number if it cannot be at all.
@@ -108,12 +110,14 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     const bool pair = reading_has(reading, PAD_SQUARE | PAD_RECTANGLE);
     const bool fused = reading->evidence.count == 2 && reading->evidence.sightings[0].kinds == PAD_INNER;
 
-    if (fabs(view->value[PAD_EDGE_PX]) > EDGE_MAX_PX || tilt > TILT_MAX || worst > WORST_MAX) {
+    struct pad_plane plane;
+
+    if (fabs(view->value[PAD_EDGE_PX]) > EDGE_MAX_PX || tilt > TILT_MAX || worst > WORST_MAX ||
+        pad_plane_of(view, context->camera, &plane) != 0) {
         return -1.0;
     }
-    const bool contradicts = contradicts_lidar(context, view);
-    const double doubt = misfit + DOUBT_CLUTTER * reading->clutter + DOUBT_MISSING * reading->missing +
-                         (contradicts ? DOUBT_HEIGHT : 0.0);
+    const double height = agrees_with_lidar(context, &plane, ROUGH_TOLERANCE, ROUGH_TOLERANCE_M) ? 0.0 : DOUBT_HEIGHT;
+    const double doubt = misfit + DOUBT_CLUTTER * reading->clutter + DOUBT_MISSING * reading->missing + height;
     if (fused) {
         return reading_has(reading, PAD_RING) && doubt <= FUSED_DOUBT_MAX ? doubt : -1.0;
     }
@@ -130,7 +134,9 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     // Two of three that do not depend on each other, one of them the pair or half of it.
     if (pair && small_ring) {
         // Small shapes inside a wrong ring are a pad seen from higher up, but for the LiDAR.
-        return broken < NO_RING_BROKEN_MIN || !contradicts ? doubt + DOUBT_NO_RING * broken : -1.0;
+        return broken < NO_RING_BROKEN_MIN || agrees_with_lidar(context, &plane, CLOSE_TOLERANCE, CLOSE_TOLERANCE_M)
+                   ? doubt + DOUBT_NO_RING * broken
+                   : -1.0;
     }
     if (pair && ring) {
         return doubt + broken <= pieces_doubt_max(context, reading) ? doubt + broken : -1.0;
@@ -138,8 +144,6 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
         return doubt + broken <= CLOSE_DOUBT_MAX ? doubt + broken : -1.0;
     }
-    return reading_has_whole_pair(reading) && !context->hint->searching && far_enough(context, reading, view) &&
-                   doubt <= FAR_DOUBT_MAX
-               ? doubt
-               : -1.0;
+    return reading_has_whole_pair(reading) && far_enough(context, reading, &plane) && doubt <= FAR_DOUBT_MAX ? doubt
+                                                                                                              : -1.0;
 }

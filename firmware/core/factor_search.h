@@ -8,6 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+// A frame whose thresholds may be those of another factor than its own.
+#define FACTOR_SEARCH_MIXED UINT32_MAX
+
 struct factor_search {
     uint32_t place;  // in the list of factors; 0 is the usual one
     uint32_t misses; // frames without a pad since the last one, or since this factor came

@@ -140,8 +140,8 @@ def test_the_golden_path_takes_the_factor_that_the_firmware_asks_for() -> None:
     film = shadowed(SHOWINGS_MOST)
     answer = golden(film)
     told = factors(answer)
-    assert told[:18] == [128] * 18
-    assert told[18] == 160
+    assert told[:19] == [128] * 19
+    assert told[19] == 160
     assert answer.seen[0].pad is not None
     assert told[-1] != 128
     assert [one.pad is not None for one in answer.before[-SHOWINGS_STEADY:]] == [False] + [True] * (SHOWINGS_STEADY - 1)
@@ -152,8 +152,8 @@ def test_the_golden_path_takes_the_factor_that_the_firmware_asks_for() -> None:
 def test_a_second_shows_every_factor_and_the_usual_one_again() -> None:
     blank = Shot("a", lambda: (np.full((720, 1280, 3), 90, np.uint8), Reference()), 1.0)
     told = factors(golden(develop(Unit("s", (blank,)))))
-    assert set(told[:43]) == {128, 160, 208, 96, 72}
-    assert told[42:60] == [128] * 18
+    assert set(told[:47]) == {128, 160, 208, 96, 72}
+    assert told[47:] == [128] * 13
 
 
 def test_rendered_frames_have_an_attitude_that_is_nearly_right_and_photographs_none(tmp_path: Path) -> None:
