@@ -177,6 +177,17 @@ static void test_factors(void)
     CHECK((app_threshold_register(&app) & LANDING_REG_THRESHOLD_FLAT_LIMIT_MASK) >>
               LANDING_REG_THRESHOLD_FLAT_LIMIT_SHIFT ==
           16U);
+    test_case("the first frame of a factor has the thresholds of the one before, and does not count");
+    start();
+    for (int i = 0; i < 19; i++) {
+        CHECK(factor() == 128U); // the very first has none at all
+        show(&empty);
+    }
+    for (int i = 0; i < 7; i++) {
+        CHECK(factor() == 160U);
+        show(&empty);
+    }
+    CHECK(factor() == 208U);
     test_case("the search can be left out");
     start();
     app.detect_options = DETECT_ALL & ~DETECT_FACTORS;
