@@ -13,7 +13,7 @@
 // Share of the ring that may be missing where it is too thin to be seen, unless it is all round.
 #define EXCUSED_MAX 0.4
 #define EXCUSED_THIN_MAX 0.99
-// A third of the ring or more is missing, in parts of DOUBT_RING.
+// So much doubt from the ring alone: about half of it is missing.
 #define NO_RING_BROKEN_MIN 1.0
 #define DOUBT_MISSING 1.5 // for a square, rectangle or small ring that should be there
 // How far the LiDAR may be off: over grass or mounted elsewhere, and where all hangs on it.

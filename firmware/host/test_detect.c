@@ -336,7 +336,7 @@ static void test_thin_ring(void)
     CHECK(!find_with(&hint) || pad.doubt > doubt + 0.3);
 }
 
-// Square, rectangle and small ring of half the size, inside the ring that is there: a LiDAR tells them apart.
+// Without the ring, only a LiDAR tells a pad from smaller shapes nearer by.
 static void test_no_ring_and_another_height(void)
 {
     const struct scene scene = {.height_m = 0.5, .heading_deg = 140.0};
