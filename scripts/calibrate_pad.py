@@ -25,6 +25,7 @@ _AREA_RATIO = 1.6
 _SIDE_POINTS = 12
 _TURN_POINTS = 96
 _SETTINGS = Settings()
+_FRAME_US = 16_667
 
 
 def _box(x: float, y: float, width: float, height: float) -> np.ndarray:
@@ -115,11 +116,19 @@ def _build_firmware() -> None:
     make("host")
 
 
-def _start(record: bytes) -> np.ndarray | None:
-    """Where the firmware sees a level pad."""
+def _start(objects: np.ndarray, width: int, height: int) -> np.ndarray | None:
+    """Where the firmware sees a level pad; shown twice, since a frame's thresholds are of the one before."""
     _build_firmware()
     firmware = Firmware()
-    firmware.on_record(record)
+    for number in range(2):
+        header = {
+            "frame_number": number,
+            "start_time_us": number * _FRAME_US,
+            "frame_size_width": width,
+            "frame_size_height": height,
+            "threshold_factor": _SETTINGS.factor,
+        }
+        firmware.on_record(result_writer.record(header, objects), number * _FRAME_US)
     found, _, _, angle, _, right, forward, *_, height = firmware.take(GROUND)[-1].data[:12]
     if not found:
         return None
@@ -140,8 +149,7 @@ def find_pad(rgb: np.ndarray, name: str, camera: Camera) -> View | None:
     """
     *_, stages = run_frames([rgb, rgb], _SETTINGS)
     height, width = rgb.shape[:2]
-    header = {"frame_number": 1, "frame_size_width": width, "frame_size_height": height}
-    start = _start(result_writer.record(header, stages.objects))
+    start = _start(stages.objects, width, height)
     if start is None:
         return None
     inside = [

@@ -29,6 +29,7 @@
 #define PIECES_DOUBT_CLUTTER_MAX 0.6    // both
 #define PATCHED_DOUBT_CROWDED_MAX 1.0   // pieces that make a whole ring
 #define WHOLE_DOUBT_CROWDED_MAX 1.4     // a ring in one piece that has grown together with something
+#define LACKING_DOUBT_CROWDED_MAX 1.8   // one that wants a shape: all else must fit well
 #define CUT_DOUBT_MAX 0.5               // the border cuts the square, the rectangle or both
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
@@ -92,7 +93,8 @@ static double pieces_doubt_max(const struct detect_context *context, const struc
     }
     // Clutter can be pieced together to anything, a whole ring too.
     const double patched = searching ? pieces : context->crowded ? PATCHED_DOUBT_CROWDED_MAX : HUGE_VAL;
-    const double single = context->crowded ? WHOLE_DOUBT_CROWDED_MAX : HUGE_VAL;
+    const double lacking = reading->missing > 0 ? LACKING_DOUBT_CROWDED_MAX : WHOLE_DOUBT_CROWDED_MAX;
+    const double single = context->crowded ? lacking : HUGE_VAL;
     return reading_of(reading, PAD_RING)->pieces ? patched : single;
 }
 
