@@ -31,6 +31,7 @@
 #define WHOLE_DOUBT_CROWDED_MAX 1.4     // a ring in one piece that has grown together with something
 #define LACKING_DOUBT_CROWDED_MAX 1.8   // one that wants a shape: all else must fit well
 #define CUT_DOUBT_MAX 0.5               // the border cuts the square, the rectangle or both
+#define CUT_DOUBT_CLUTTER_MAX 0.2       // the same under other thresholds or in a crowd: the ring in one piece, all fits
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
 // With only one of square and rectangle there is little to contradict a view.
@@ -82,9 +83,12 @@ static bool far_enough(const struct detect_context *context, const struct readin
 static double pieces_doubt_max(const struct detect_context *context, const struct reading *reading)
 {
     const bool searching = context->hint->searching;
+    const bool in_one_piece = reading_has(reading, PAD_RING) && !reading_of(reading, PAD_RING)->pieces;
 
     if (!reading_has_whole_pair(reading)) {
-        return searching || context->crowded ? 0.0 : CUT_DOUBT_MAX;
+        const double clutter = in_one_piece ? CUT_DOUBT_CLUTTER_MAX : 0.0;
+
+        return searching || context->crowded ? clutter : CUT_DOUBT_MAX;
     }
     const double pieces = context->crowded ? (searching ? PIECES_DOUBT_CLUTTER_MAX : PIECES_DOUBT_CROWDED_MAX)
                                            : (searching ? PIECES_DOUBT_SEARCHING_MAX : PIECES_DOUBT_MAX);
@@ -95,7 +99,7 @@ static double pieces_doubt_max(const struct detect_context *context, const struc
     const double patched = searching ? pieces : context->crowded ? PATCHED_DOUBT_CROWDED_MAX : HUGE_VAL;
     const double lacking = reading->missing > 0 ? LACKING_DOUBT_CROWDED_MAX : WHOLE_DOUBT_CROWDED_MAX;
     const double single = context->crowded ? lacking : HUGE_VAL;
-    return reading_of(reading, PAD_RING)->pieces ? patched : single;
+    return in_one_piece ? single : patched;
 }
 
 // How far the view is from being believed; a negative number if it cannot be at all.
