@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the cocotb tests of every core in every config and simulator. The environment variable SEED sets the seed."""
+"""Runs the cocotb tests of every core in every config and simulator. The environment variable SEED sets the seed.
+
+The first config runs in both simulators; of the others, the slower simulator's runs are left to `make test-full`.
+"""
 
 from collections.abc import Iterator
 from xml.etree import ElementTree
@@ -11,6 +14,8 @@ from scripts.signoff import combine, leave_part
 from tb.common.cores import core_names, load_core
 from tb.common.runner import SIMULATORS, default_seed, run_core
 
+SLOWER = "icarus"
+
 
 def runs() -> Iterator[object]:
     """Yield one pytest parameter a run; a core that cannot be read gives one item, which then fails."""
@@ -21,7 +26,8 @@ def runs() -> Iterator[object]:
             count = 1
         for index in range(count):
             for sim in SIMULATORS:
-                yield pytest.param(name, index, sim, id=f"{name}-{index}-{sim}")
+                marks = [pytest.mark.full] if index > 0 and sim == SLOWER else []
+                yield pytest.param(name, index, sim, id=f"{name}-{index}-{sim}", marks=marks)
 
 
 @pytest.mark.parametrize(("name", "index", "sim"), list(runs()))
