@@ -32,24 +32,11 @@
      LANDING_HEADER_FLAGS_OBJECTS_OVERFLOW_MASK | LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK)
 #define RING_WIDTH_M (2.0 * RING_OUTER_RADIUS_MM / 1000.0)
 
-static void send(struct app *app, enum app_link link, const uint8_t *bytes, size_t size)
-{
-    if (!app->port.write(app->port.context, link, bytes, size)) {
-        app->health[link == APP_LINK_AUTOPILOT ? APP_HEALTH_DROPPED_AUTOPILOT : APP_HEALTH_DROPPED_GROUND]++;
-    }
-}
-
-static void say(struct app *app, enum mavlink_out_severity severity, const char *text)
-{
-    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
-
-    send(app, APP_LINK_GROUND, bytes, mavlink_out_status_text(&app->out[APP_LINK_GROUND], severity, text, bytes));
-}
-
 void app_init(struct app *app, const struct app_port *port, uint64_t now_us, const char *fault)
 {
     memset(app, 0, sizeof *app);
-    app->port = *port;
+    links_init(&app->links, port);
+    flight_init(&app->flight, now_us);
     app->fault = fault;
     app->min_area_px = MIN_AREA_START_PX;
     app->detect_options = DETECT_ALL;
@@ -59,7 +46,7 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
     for (int link = 0; link < APP_LINKS; link++) {
         mavlink_in_init(&app->in[link]);
     }
-    say(app, MAVLINK_OUT_INFO, "Touchdown: started");
+    links_say(&app->links, MAVLINK_OUT_INFO, "Touchdown: started");
 }
 
 // The fused altitude scales what the pad's size says.
@@ -80,8 +67,8 @@ static void send_landing_target(struct app *app, const struct landing_record *re
         .pad_width_m = RING_WIDTH_M,
     };
 
-    send(app, APP_LINK_AUTOPILOT, bytes,
-         mavlink_out_landing_target(&app->out[APP_LINK_AUTOPILOT], &target, bytes));
+    links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
+         mavlink_out_landing_target(&app->links.out[APP_LINK_AUTOPILOT], &target, bytes));
 }
 
 // `pad` is NULL when none was found.
@@ -112,8 +99,8 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
     values[APP_PAD_FRAME_NUMBER] = (float)record->header.frame_number;
     values[APP_PAD_OBJECT_COUNT] = (float)record->header.object_count;
     values[APP_PAD_FLAGS] = (float)flags;
-    send(app, APP_LINK_GROUND, bytes,
-         mavlink_out_float_array(&app->out[APP_LINK_GROUND], record->header.start_time_us, PAD_ARRAY_ID, "PAD", values,
+    links_send(&app->links, APP_LINK_GROUND, bytes,
+         mavlink_out_float_array(&app->links.out[APP_LINK_GROUND], record->header.start_time_us, PAD_ARRAY_ID, "PAD", values,
                                  APP_PAD_FIELDS, bytes));
 }
 
@@ -227,6 +214,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
+    // A prediction is good for a target, not for steering.
+    if (track != TRACK_BRIDGED) {
+        flight_on_frame(&app->flight, &app->attitude, found ? &pad : NULL, &altitude, now_us);
+    }
     if (found) {
         app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
         send_landing_target(app, record, &pad, &altitude);
@@ -240,18 +231,20 @@ void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, siz
     for (size_t i = 0; i < size; i++) {
         struct mavlink_in_message message;
         uint8_t reply[MAVLINK_OUT_MAX_BYTES];
-        switch (mavlink_in_byte(&app->in[link], bytes[i], &message)) {
-        case MAVLINK_IN_TIMESYNC_REQUEST:
-            send(app, link, reply, mavlink_out_timesync_reply(&app->out[link], now_us, message.request_ns, reply));
-            break;
-        case MAVLINK_IN_ATTITUDE:
-            if (link == APP_LINK_AUTOPILOT) {
-                attitude_set(&app->attitude, (double)message.roll_rad, (double)message.pitch_rad, now_us);
-            }
-            break;
-        case MAVLINK_IN_NOTHING:
-            break;
+        const enum mavlink_in_kind kind = mavlink_in_byte(&app->in[link], bytes[i], &message);
+
+        if (kind == MAVLINK_IN_NOTHING) {
+            continue;
         }
+        if (kind == MAVLINK_IN_TIMESYNC_REQUEST) {
+            links_send(&app->links, link, reply,
+                       mavlink_out_timesync_reply(&app->links.out[link], now_us, message.as.request_ns, reply));
+        }
+        if (kind == MAVLINK_IN_ATTITUDE && link == APP_LINK_AUTOPILOT) {
+            attitude_set(&app->attitude, (double)message.as.attitude.roll_rad, (double)message.as.attitude.pitch_rad,
+                         now_us);
+        }
+        flight_on_message(&app->flight, &app->links, link, &message, now_us);
     }
 }
 
@@ -261,11 +254,13 @@ static void send_health(struct app *app, uint64_t now_us)
     float values[APP_HEALTH_FIELDS];
 
     app->health[APP_HEALTH_MIN_AREA_PX] = app->min_area_px;
+    app->health[APP_HEALTH_DROPPED_AUTOPILOT] = app->links.dropped[APP_LINK_AUTOPILOT];
+    app->health[APP_HEALTH_DROPPED_GROUND] = app->links.dropped[APP_LINK_GROUND];
     for (int i = 0; i < APP_HEALTH_FIELDS; i++) {
         values[i] = (float)app->health[i];
     }
-    send(app, APP_LINK_GROUND, bytes,
-         mavlink_out_float_array(&app->out[APP_LINK_GROUND], now_us, HEALTH_ARRAY_ID, "HEALTH", values,
+    links_send(&app->links, APP_LINK_GROUND, bytes,
+         mavlink_out_float_array(&app->links.out[APP_LINK_GROUND], now_us, HEALTH_ARRAY_ID, "HEALTH", values,
                                  APP_HEALTH_FIELDS, bytes));
 }
 
@@ -287,10 +282,10 @@ static void watch_camera(struct app *app, uint64_t now_us)
     const bool lost = now_us > app->last_record_us && now_us - app->last_record_us > CAMERA_LOST_US;
 
     if (lost && !app->camera_lost) {
-        say(app, MAVLINK_OUT_WARNING, "Touchdown: no frames, check camera and FRAME_SIZE");
+        links_say(&app->links, MAVLINK_OUT_WARNING, "Touchdown: no frames, check camera and FRAME_SIZE");
     }
     if (!lost && app->camera_lost) {
-        say(app, MAVLINK_OUT_INFO, "Touchdown: frames again");
+        links_say(&app->links, MAVLINK_OUT_INFO, "Touchdown: frames again");
     }
     app->camera_lost = lost;
 }
@@ -298,7 +293,7 @@ static void watch_camera(struct app *app, uint64_t now_us)
 static void complain(struct app *app, enum app_complaint kind, uint64_t now_us, const char *text)
 {
     if (due(&app->next_complaint_us[kind], now_us, COMPLAINT_PERIOD_US)) {
-        say(app, MAVLINK_OUT_WARNING, text);
+        links_say(&app->links, MAVLINK_OUT_WARNING, text);
     }
 }
 
@@ -324,11 +319,11 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
 
     if (due(&app->next_heartbeat_us, now_us, HEARTBEAT_PERIOD_US)) {
         for (int link = 0; link < APP_LINKS; link++) {
-            send(app, (enum app_link)link, bytes,
-                 mavlink_out_heartbeat(&app->out[link], app->fault == NULL, bytes));
+            links_send(&app->links, (enum app_link)link, bytes,
+                 mavlink_out_heartbeat(&app->links.out[link], app->fault == NULL, bytes));
         }
         if (app->fault != NULL) {
-            say(app, MAVLINK_OUT_CRITICAL, app->fault);
+            links_say(&app->links, MAVLINK_OUT_CRITICAL, app->fault);
         } else {
             send_health(app, now_us);
         }
@@ -336,11 +331,12 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
     // "Out of range" would let an autopilot arm with a sensor that is not there.
     app->lidar_worked = app->lidar_worked || (lidar != NULL && lidar->valid);
     if (lidar != NULL && app->lidar_worked && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {
-        send(app, APP_LINK_AUTOPILOT, bytes,
-             mavlink_out_distance_sensor(&app->out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
+        links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
+             mavlink_out_distance_sensor(&app->links.out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
                                          fusion_lidar_usable(lidar), lidar->distance_mm, bytes));
     }
     if (app->fault == NULL) {
         watch_camera(app, now_us);
+        flight_tick(&app->flight, &app->links, &app->attitude, lidar, now_us);
     }
 }

@@ -12,20 +12,13 @@
 #include "camera.h"
 #include "detect.h"
 #include "factor_search.h"
+#include "flight.h"
 #include "fusion.h"
+#include "links.h"
 #include "mavlink_in.h"
 #include "mavlink_out.h"
 #include "record.h"
 #include "tracker.h"
-
-enum app_link { APP_LINK_AUTOPILOT, APP_LINK_GROUND, APP_LINKS };
-
-struct app_port {
-    // Takes a whole message, or drops it and returns false; never blocks, never
-    // sends a part.
-    bool (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
-    void *context;
-};
 
 // What each element of the ground station's DEBUG_FLOAT_ARRAY "PAD" holds.
 enum app_pad_field {
@@ -80,9 +73,9 @@ struct app_complaints {
 enum app_complaint { APP_COMPLAINT_WRITE, APP_COMPLAINT_LIDAR, APP_COMPLAINT_UNWRITTEN, APP_COMPLAINTS };
 
 struct app {
-    struct app_port port;
-    struct mavlink_out out[APP_LINKS];
+    struct links links;
     struct mavlink_in in[APP_LINKS];
+    struct flight flight;
     const char *fault;
     uint64_t next_heartbeat_us;
     uint64_t next_distance_us;

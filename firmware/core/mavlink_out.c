@@ -11,11 +11,17 @@
 #define LIDAR_MAX_CM 4000U
 #define LIDAR_VARIANCE_CM2 6U // (2.5 cm)^2
 #define LIDAR_BEAM_RAD 0.008F
+// Of SET_POSITION_TARGET_LOCAL_NED: position, acceleration and yaw do not count.
+#define VELOCITY_AND_YAW_RATE                                                                                          \
+    (POSITION_TARGET_TYPEMASK_X_IGNORE | POSITION_TARGET_TYPEMASK_Y_IGNORE | POSITION_TARGET_TYPEMASK_Z_IGNORE |       \
+     POSITION_TARGET_TYPEMASK_AX_IGNORE | POSITION_TARGET_TYPEMASK_AY_IGNORE | POSITION_TARGET_TYPEMASK_AZ_IGNORE |    \
+     POSITION_TARGET_TYPEMASK_YAW_IGNORE)
 #define QUALITY_INVALID 1U
 #define QUALITY_PERFECT 100U
 
 _Static_assert(MAVLINK_OUT_MAX_BYTES >= MAVLINK_MAX_PACKET_LEN, "room for the longest frame");
 _Static_assert(MAVLINK_OUT_COMPONENT_ID == MAV_COMP_ID_ONBOARD_COMPUTER, "component id");
+_Static_assert(VELOCITY_AND_YAW_RATE == 0x05C7, "what ArduPilot and PX4 take as velocity and yaw rate");
 _Static_assert((int)MAVLINK_OUT_CRITICAL == (int)MAV_SEVERITY_CRITICAL, "severity");
 _Static_assert((int)MAVLINK_OUT_WARNING == (int)MAV_SEVERITY_WARNING, "severity");
 _Static_assert((int)MAVLINK_OUT_INFO == (int)MAV_SEVERITY_INFO, "severity");
@@ -115,6 +121,58 @@ size_t mavlink_out_status_text(struct mavlink_out *out, enum mavlink_out_severit
     }
     mavlink_msg_statustext_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message,
                                        (uint8_t)severity, padded, 0, 0);
+    return finish(out, &status, &message, bytes);
+}
+
+size_t mavlink_out_command(struct mavlink_out *out, const struct mavlink_out_command *command, uint8_t *bytes)
+{
+    mavlink_status_t status = begin(out);
+    mavlink_message_t message;
+    const float *p = command->parameters;
+
+    mavlink_msg_command_long_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message,
+                                         MAVLINK_OUT_SYSTEM_ID, MAV_COMP_ID_AUTOPILOT1, command->command,
+                                         command->confirmation, p[0], p[1], p[2], p[3], p[4], p[5], p[6]);
+    return finish(out, &status, &message, bytes);
+}
+
+size_t mavlink_out_command_ack(struct mavlink_out *out, uint16_t command, uint8_t result, uint8_t system,
+                               uint8_t component, uint8_t *bytes)
+{
+    mavlink_status_t status = begin(out);
+    mavlink_message_t message;
+
+    mavlink_msg_command_ack_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message, command,
+                                        result, 0, 0, system, component);
+    return finish(out, &status, &message, bytes);
+}
+
+size_t mavlink_out_velocity(struct mavlink_out *out, uint32_t time_ms, const struct mavlink_out_velocity *velocity,
+                            uint8_t *bytes)
+{
+    mavlink_status_t status = begin(out);
+    mavlink_message_t message;
+
+    mavlink_msg_set_position_target_local_ned_pack_status(
+        MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message, time_ms, MAVLINK_OUT_SYSTEM_ID,
+        MAV_COMP_ID_AUTOPILOT1, MAV_FRAME_BODY_NED, VELOCITY_AND_YAW_RATE, 0.0F, 0.0F, 0.0F,
+        (float)velocity->forward_m_s, (float)velocity->right_m_s, (float)velocity->down_m_s, 0.0F, 0.0F, 0.0F, 0.0F,
+        (float)velocity->yaw_rate_rad_s);
+    return finish(out, &status, &message, bytes);
+}
+
+size_t mavlink_out_parameter(struct mavlink_out *out, const char *name, float value, uint16_t index, uint16_t count,
+                             uint8_t *bytes)
+{
+    mavlink_status_t status = begin(out);
+    mavlink_message_t message;
+    char padded[MAVLINK_MSG_PARAM_VALUE_FIELD_PARAM_ID_LEN] = {0};
+
+    for (size_t i = 0; i < sizeof padded && name[i] != '\0'; i++) {
+        padded[i] = name[i];
+    }
+    mavlink_msg_param_value_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message, padded,
+                                        value, MAV_PARAM_TYPE_REAL32, count, index);
     return finish(out, &status, &message, bytes);
 }
 

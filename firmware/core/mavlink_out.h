@@ -44,6 +44,35 @@ size_t mavlink_out_float_array(struct mavlink_out *out, uint64_t time_us, uint16
 size_t mavlink_out_status_text(struct mavlink_out *out, enum mavlink_out_severity severity, const char *text,
                                uint8_t *bytes);
 
+// Of a vehicle's autopilot: component 1 of our system.
+struct mavlink_out_command {
+    uint16_t command;     // MAV_CMD
+    uint8_t confirmation; // how often it was sent before
+    float parameters[7];
+};
+
+size_t mavlink_out_command(struct mavlink_out *out, const struct mavlink_out_command *command, uint8_t *bytes);
+
+// Answers a command of `system` and `component`; `result` is a MAV_RESULT.
+size_t mavlink_out_command_ack(struct mavlink_out *out, uint16_t command, uint8_t result, uint8_t system,
+                               uint8_t component, uint8_t *bytes);
+
+// In the level frame that turns with the heading.
+struct mavlink_out_velocity {
+    double forward_m_s;
+    double right_m_s;
+    double down_m_s;
+    double yaw_rate_rad_s; // clockwise as seen from above
+};
+
+// SET_POSITION_TARGET_LOCAL_NED for the autopilot: velocity and yaw rate.
+size_t mavlink_out_velocity(struct mavlink_out *out, uint32_t time_ms, const struct mavlink_out_velocity *velocity,
+                            uint8_t *bytes);
+
+// PARAM_VALUE of a float; `name` has at most 16 characters.
+size_t mavlink_out_parameter(struct mavlink_out *out, const char *name, float value, uint16_t index, uint16_t count,
+                             uint8_t *bytes);
+
 size_t mavlink_out_timesync_reply(struct mavlink_out *out, uint64_t now_us, int64_t request_ns, uint8_t *bytes);
 
 #endif

@@ -180,8 +180,8 @@ static void test_full_wire(void)
     wire_is_full = true;
     app_tick(&app, 0, &lidar);
     wire_is_full = false;
-    CHECK(app.health[APP_HEALTH_DROPPED_AUTOPILOT] == 2U);
-    CHECK(app.health[APP_HEALTH_DROPPED_GROUND] == 2U); // HEARTBEAT and HEALTH
+    CHECK(app.links.dropped[APP_LINK_AUTOPILOT] == 2U);
+    CHECK(app.links.dropped[APP_LINK_GROUND] == 2U); // HEARTBEAT and HEALTH
 }
 
 static void test_no_thresholds_yet(void)

@@ -42,6 +42,7 @@ int main(void)
     test_app();
     test_app_track();
     test_attitude();
+    test_autopilot();
     test_byte_ring();
     test_camera();
     test_detect();
@@ -50,12 +51,15 @@ int main(void)
     test_frame_queue();
     test_fusion();
     test_hypothesis();
+    test_landing();
     test_landing_hw();
     test_pad_fit();
     test_pad_view();
+    test_parameters();
     test_record();
     test_record_torn();
     test_shapes();
+    test_steering();
     test_tracker();
     test_uart();
     test_uart_baud();

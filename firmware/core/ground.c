@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ground.h"
+
+#include <string.h>
+
+#include <common/mavlink.h>
+
+#define NOTHING_TO_SAY UINT32_MAX
+// A message of 60 bytes takes 10 ms at 57600 baud, beside what goes out anyway.
+#define SAY_PERIOD_US 50000U
+#define MS_PER_S 1000U
+#define US_PER_MS 1000U
+#define TEXT_CHARS (MAVLINK_OUT_STATUS_TEXT_CHARS + 1U)
+#define TIME_DIGITS_MAX 10
+
+static enum landing_phase phase_of(const struct flight *flight)
+{
+    return flight->landing.phase;
+}
+
+static bool commands(const struct flight *flight)
+{
+    return landing_phase_table[phase_of(flight)].mode != LANDING_MODE_NONE;
+}
+
+// What a command asks for, or 0; `result` says why.
+static uint32_t fact_of(const struct flight *flight, const struct mavlink_in_command *command, uint8_t *result)
+{
+    *result = (uint8_t)MAV_RESULT_ACCEPTED;
+    switch (command->command) {
+    case MAV_CMD_NAV_LAND:
+        // A refusal for other reasons is said in words, by the rule that refuses.
+        *result = (uint8_t)(commands(flight) ? MAV_RESULT_TEMPORARILY_REJECTED : MAV_RESULT_ACCEPTED);
+        return commands(flight) ? 0U : LANDING_FACT_START;
+    case MAV_CMD_DO_GO_AROUND:
+        return LANDING_FACT_ABORT;
+    case MAV_CMD_DO_PAUSE_CONTINUE:
+        if (command->parameters[0] == 0.0F) {
+            return LANDING_FACT_PAUSE;
+        }
+        if (command->parameters[0] == 1.0F) {
+            return LANDING_FACT_GO_ON;
+        }
+        *result = (uint8_t)MAV_RESULT_DENIED;
+        return 0U;
+    case MAV_CMD_USER_1:
+        return 0U;
+    default:
+        *result = (uint8_t)MAV_RESULT_UNSUPPORTED;
+        return 0U;
+    }
+}
+
+void ground_init(struct flight *flight)
+{
+    flight->params_said = NOTHING_TO_SAY;
+    flight->log_said = NOTHING_TO_SAY;
+}
+
+void ground_on_command(struct flight *flight, struct links *links, enum app_link link,
+                       const struct mavlink_in_message *message)
+{
+    const struct mavlink_in_command *command = &message->as.command;
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+    uint8_t result;
+
+    flight->known.asked |= fact_of(flight, command, &result);
+    if (command->command == (uint16_t)MAV_CMD_USER_1) {
+        flight->log_said = flight->logged < FLIGHT_LOG_ROWS ? 0U : flight->logged - FLIGHT_LOG_ROWS;
+    }
+    links_send(links, link, bytes,
+               mavlink_out_command_ack(&links->out[link], command->command, result, message->system,
+                                       message->component, bytes));
+}
+
+static void say_parameter(const struct flight *flight, struct links *links, enum app_link link, size_t index)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+
+    links_send(links, link, bytes,
+               mavlink_out_parameter(&links->out[link], parameters_name(index),
+                                     parameters_get(&flight->parameters, index), (uint16_t)index,
+                                     (uint16_t)PARAMETERS_COUNT, bytes));
+}
+
+void ground_on_parameter(struct flight *flight, struct links *links, enum app_link link,
+                         const struct mavlink_in_message *message)
+{
+    const struct mavlink_in_param *param = &message->as.param;
+
+    if (message->kind == MAVLINK_IN_PARAM_LIST) {
+        flight->params_said = 0U;
+        return;
+    }
+    const int index = param->index >= 0 ? param->index : parameters_find(param->name);
+
+    if (index < 0 || (size_t)index >= PARAMETERS_COUNT) {
+        return; // as the protocol has it: no answer to a name that is not known
+    }
+    if (message->kind == MAVLINK_IN_PARAM_SET) {
+        const int error = param->type == (uint8_t)MAV_PARAM_TYPE_REAL32
+                              ? parameters_set(&flight->parameters, (size_t)index, param->value)
+                              : PARAMETERS_E_RANGE;
+
+        flight->parameters_changed = flight->parameters_changed || error == 0;
+        if (error != 0) {
+            links_say(links, MAVLINK_OUT_WARNING, "Touchdown: parameter beyond its limits");
+        }
+    }
+    // The answer to PARAM_SET is the value that holds from now on, changed or not.
+    say_parameter(flight, links, link, (size_t)index);
+}
+
+static size_t append(char *text, size_t at, const char *words)
+{
+    while (*words != '\0' && at + 1U < TEXT_CHARS) {
+        text[at++] = *words++;
+    }
+    text[at] = '\0';
+    return at;
+}
+
+static size_t append_number(char *text, size_t at, uint32_t number)
+{
+    char digits[TIME_DIGITS_MAX + 1] = {0};
+    int first = TIME_DIGITS_MAX;
+
+    do {
+        digits[--first] = (char)('0' + (char)(number % 10U));
+        number /= 10U;
+    } while (number != 0U && first > 0);
+    return append(text, at, &digits[first]);
+}
+
+// "123.4 SEARCH>CENTRE: pad seen"
+static void say_row(struct links *links, const struct flight_log_row *row)
+{
+    char text[TEXT_CHARS];
+    const uint32_t time_ms = (uint32_t)(row->time_us / US_PER_MS);
+    size_t at = append_number(text, 0U, time_ms / MS_PER_S);
+
+    at = append(text, at, ".");
+    at = append_number(text, at, time_ms % MS_PER_S / 100U);
+    at = append(text, at, " ");
+    at = append(text, at, landing_phase_table[row->from].name);
+    at = append(text, at, ">");
+    at = append(text, at, landing_phase_table[row->to].name);
+    at = append(text, at, ": ");
+    (void)append(text, at, row->reason);
+    links_say(links, MAVLINK_OUT_INFO, text);
+}
+
+void ground_tick(struct flight *flight, struct links *links, uint64_t now_us)
+{
+    if (now_us < flight->next_said_us) {
+        return;
+    }
+    if (flight->params_said < PARAMETERS_COUNT) {
+        say_parameter(flight, links, APP_LINK_GROUND, flight->params_said);
+        flight->params_said++;
+    } else if (flight->log_said < flight->logged) {
+        say_row(links, &flight->log[flight->log_said % FLIGHT_LOG_ROWS]);
+        flight->log_said++;
+    } else {
+        return;
+    }
+    flight->next_said_us = now_us + SAY_PERIOD_US;
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "links.h"
+
+#include <string.h>
+
+void links_init(struct links *links, const struct app_port *port)
+{
+    memset(links, 0, sizeof *links);
+    links->port = *port;
+}
+
+void links_send(struct links *links, enum app_link link, const uint8_t *bytes, size_t size)
+{
+    if (!links->port.write(links->port.context, link, bytes, size)) {
+        links->dropped[link]++;
+    }
+}
+
+void links_say(struct links *links, enum mavlink_out_severity severity, const char *text)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+
+    links_send(links, APP_LINK_GROUND, bytes, mavlink_out_status_text(&links->out[APP_LINK_GROUND], severity, text, bytes));
+}

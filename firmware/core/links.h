@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two wires: whole messages or none, numbered per wire, losses counted.
+#ifndef TOUCHDOWN_LINKS_H
+#define TOUCHDOWN_LINKS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "mavlink_out.h"
+
+enum app_link { APP_LINK_AUTOPILOT, APP_LINK_GROUND, APP_LINKS };
+
+struct app_port {
+    // Takes a whole message, or drops it and returns false; never blocks, never
+    // sends a part.
+    bool (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
+    void *context;
+};
+
+struct links {
+    struct app_port port;
+    struct mavlink_out out[APP_LINKS];
+    uint32_t dropped[APP_LINKS]; // messages that found no room on the wire
+};
+
+void links_init(struct links *links, const struct app_port *port);
+
+void links_send(struct links *links, enum app_link link, const uint8_t *bytes, size_t size);
+
+// A STATUSTEXT for the ground.
+void links_say(struct links *links, enum mavlink_out_severity severity, const char *text);
+
+#endif

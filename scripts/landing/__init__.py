@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The landing's phases: one table, from which C and documentation are generated."""
