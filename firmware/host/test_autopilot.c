@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string.h>
+
+#include <common/mavlink.h>
+
+#include "autopilot.h"
+#include "test.h"
+
+#define SECOND 1000000U
+
+static struct autopilot autopilot;
+static struct autopilot_command command;
+
+static void heartbeat(uint8_t kind, uint32_t custom_mode, uint8_t base_mode, uint64_t now_us)
+{
+    const struct mavlink_in_message message = {
+        .kind = MAVLINK_IN_HEARTBEAT,
+        .as.heartbeat = {.custom_mode = custom_mode, .autopilot = kind, .base_mode = base_mode},
+    };
+
+    autopilot_on_message(&autopilot, &message, now_us);
+}
+
+static void acknowledge(uint16_t of, uint8_t result)
+{
+    const struct mavlink_in_message message = {.kind = MAVLINK_IN_ACK, .as.ack = {.command = of, .result = result}};
+
+    autopilot_on_message(&autopilot, &message, 0U);
+}
+
+static void start(uint8_t kind, uint32_t custom_mode)
+{
+    autopilot_init(&autopilot);
+    heartbeat(kind, custom_mode, MAV_MODE_FLAG_SAFETY_ARMED, SECOND);
+}
+
+static void test_heard(void)
+{
+    test_case("silence");
+    autopilot_init(&autopilot);
+    CHECK(!autopilot_is_heard(&autopilot, 0U));
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    CHECK(autopilot_is_heard(&autopilot, SECOND + AUTOPILOT_SILENT_US));
+    CHECK(!autopilot_is_heard(&autopilot, SECOND + AUTOPILOT_SILENT_US + 1U));
+    CHECK(autopilot.armed);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, 2U * SECOND);
+    CHECK(!autopilot.armed);
+}
+
+static void test_modes(void)
+{
+    static const struct {
+        uint8_t kind;
+        enum landing_mode mode;
+        uint32_t custom_mode;
+        float main;
+        float sub;
+    } rows[] = {
+        {MAV_AUTOPILOT_ARDUPILOTMEGA, LANDING_MODE_STEER, 4U, 4.0F, 0.0F},
+        {MAV_AUTOPILOT_ARDUPILOTMEGA, LANDING_MODE_LAND, 9U, 9.0F, 0.0F},
+        {MAV_AUTOPILOT_ARDUPILOTMEGA, LANDING_MODE_HOLD, 17U, 17.0F, 0.0F},
+        {MAV_AUTOPILOT_PX4, LANDING_MODE_STEER, 0x00060000U, 6.0F, 0.0F},
+        {MAV_AUTOPILOT_PX4, LANDING_MODE_LAND, 0x09040000U, 4.0F, 9.0F},
+        {MAV_AUTOPILOT_PX4, LANDING_MODE_HOLD, 0x03040000U, 4.0F, 3.0F},
+    };
+
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        test_case("mode %u of autopilot %u", (unsigned)rows[i].mode, (unsigned)rows[i].kind);
+        start(rows[i].kind, 1U);
+        autopilot_want(&autopilot, rows[i].mode, 2U * SECOND);
+        CHECK(!autopilot_is_in(&autopilot, rows[i].mode));
+        // Setpoints come first.
+        CHECK(!autopilot_mode_request(&autopilot, 2U * SECOND, &command));
+        CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+        CHECK(command.command == MAV_CMD_DO_SET_MODE && command.parameters[0] == 1.0F);
+        CHECK(command.parameters[1] == rows[i].main && command.parameters[2] == rows[i].sub);
+        CHECK(!autopilot_mode_request(&autopilot, 3U * SECOND + 1U, &command));
+        heartbeat(rows[i].kind, rows[i].custom_mode, 0U, 4U * SECOND);
+        CHECK(autopilot_is_in(&autopilot, rows[i].mode));
+        CHECK(!autopilot_mode_request(&autopilot, 5U * SECOND, &command));
+        CHECK(!autopilot.mode_taken && !autopilot_refuses(&autopilot, 5U * SECOND));
+    }
+    CHECK(!autopilot_is_in(&autopilot, LANDING_MODE_NONE));
+}
+
+static void test_pilot(void)
+{
+    test_case("the mode that it was in when another was asked for is no one's doing");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, 2U * SECOND);
+    CHECK(!autopilot.mode_taken);
+    test_case("once taken, that very mode is someone's");
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 3U * SECOND);
+    CHECK(!autopilot.mode_taken);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, 4U * SECOND);
+    CHECK(autopilot.mode_taken);
+    test_case("a third mode is someone's at any time");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 6U, 0U, 2U * SECOND);
+    CHECK(autopilot.mode_taken);
+    test_case("a mode that was asked for before may come late");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    autopilot_want(&autopilot, LANDING_MODE_HOLD, SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 2U * SECOND);
+    CHECK(!autopilot.mode_taken);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 17U, 0U, 3U * SECOND);
+    CHECK(!autopilot.mode_taken);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 4U * SECOND);
+    CHECK(autopilot.mode_taken);
+    test_case("nothing wanted, nothing taken");
+    autopilot_want(&autopilot, LANDING_MODE_NONE, 5U * SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 6U, 0U, 6U * SECOND);
+    CHECK(!autopilot.mode_taken);
+}
+
+static void test_refusal(void)
+{
+    uint64_t now_us = SECOND;
+
+    test_case("five requests without effect");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_LAND, now_us);
+    for (unsigned i = 0; i < AUTOPILOT_REQUESTS_MAX; i++) {
+        now_us += SECOND;
+        CHECK(!autopilot_refuses(&autopilot, now_us));
+        CHECK(autopilot_mode_request(&autopilot, now_us, &command));
+    }
+    CHECK(!autopilot_refuses(&autopilot, now_us));
+    now_us += SECOND;
+    CHECK(!autopilot_mode_request(&autopilot, now_us, &command));
+    CHECK(autopilot_refuses(&autopilot, now_us));
+    test_case("a refusal counts at once, one for the time being does not");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_LAND, SECOND);
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_DENIED); // of someone else's request
+    CHECK(!autopilot_refuses(&autopilot, 2U * SECOND));
+    CHECK(autopilot_mode_request(&autopilot, 2U * SECOND, &command));
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_TEMPORARILY_REJECTED);
+    CHECK(!autopilot_refuses(&autopilot, 2U * SECOND));
+    acknowledge(MAV_CMD_SET_MESSAGE_INTERVAL, MAV_RESULT_DENIED);
+    CHECK(!autopilot_refuses(&autopilot, 2U * SECOND));
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_DENIED);
+    CHECK(autopilot_refuses(&autopilot, 2U * SECOND));
+    test_case("of an autopilot that is not known nothing is asked");
+    start(MAV_AUTOPILOT_GENERIC, 4U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    CHECK(!autopilot_is_in(&autopilot, LANDING_MODE_STEER));
+    CHECK(!autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+    CHECK(autopilot_refuses(&autopilot, 3U * SECOND));
+}
+
+static void test_streams(void)
+{
+    const struct mavlink_in_message attitude = {.kind = MAVLINK_IN_ATTITUDE};
+    const struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE,
+                                              .as.landed_state = MAV_LANDED_STATE_ON_GROUND};
+    const struct mavlink_in_message battery = {.kind = MAVLINK_IN_BATTERY, .as.battery_percent = 77};
+    const struct mavlink_in_message no_battery = {.kind = MAVLINK_IN_BATTERY, .as.battery_percent = -1};
+    const struct mavlink_in_message rc = {.kind = MAVLINK_IN_RC};
+    const struct mavlink_in_message other = {.kind = MAVLINK_IN_COMMAND};
+    unsigned asked = 0U;
+
+    test_case("nothing is asked of one that is not there");
+    autopilot_init(&autopilot);
+    CHECK(!autopilot_stream_request(&autopilot, SECOND, &command));
+    test_case("all four are asked for, once a second each, until they come");
+    start(MAV_AUTOPILOT_PX4, 0U);
+    while (asked < 10U && autopilot_stream_request(&autopilot, SECOND, &command)) {
+        CHECK(command.command == MAV_CMD_SET_MESSAGE_INTERVAL && command.parameters[1] >= 20000.0F);
+        asked++;
+    }
+    CHECK(asked == AUTOPILOT_STREAMS);
+    CHECK(!autopilot_stream_request(&autopilot, 2U * SECOND - 1U, &command));
+    autopilot_on_message(&autopilot, &landed, 2U * SECOND);
+    autopilot_on_message(&autopilot, &battery, 2U * SECOND);
+    autopilot_on_message(&autopilot, &rc, 2U * SECOND);
+    autopilot_on_message(&autopilot, &other, 2U * SECOND);
+    CHECK(autopilot_stream_request(&autopilot, 2U * SECOND, &command));
+    CHECK(command.parameters[0] == (float)MAVLINK_MSG_ID_ATTITUDE);
+    CHECK(!autopilot_stream_request(&autopilot, 2U * SECOND, &command));
+    autopilot_on_message(&autopilot, &attitude, 2U * SECOND);
+    CHECK(!autopilot_stream_request(&autopilot, 2U * SECOND + 200000U, &command));
+    CHECK(autopilot.on_ground && autopilot.battery_known && autopilot.battery_percent == 77U);
+    autopilot_on_message(&autopilot, &no_battery, 2U * SECOND);
+    CHECK(!autopilot.battery_known);
+    test_case("what stops coming is asked for again");
+    CHECK(autopilot_stream_request(&autopilot, 3U * SECOND, &command));
+    CHECK(command.parameters[0] == (float)MAVLINK_MSG_ID_ATTITUDE);
+}
+
+void test_autopilot(void)
+{
+    test_heard();
+    test_modes();
+    test_pilot();
+    test_refusal();
+    test_streams();
+}

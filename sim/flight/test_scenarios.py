@@ -1,0 +1,449 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whole landings and each failure on the way, with the firmware's core in this process."""
+
+import math
+import random
+from collections.abc import Callable
+
+import pytest
+from pymavlink.dialects.v20 import common as mavlink
+
+from firmware.library import AUTOPILOT, GROUND, make
+from sim.flight.autopilot import ARDUPILOT, PX4, Autopilot
+from sim.flight.scenario import Flight
+from sim.flight.vehicle import Vehicle
+
+PROFILES = (ARDUPILOT, PX4)
+ABORT = mavlink.MAV_CMD_DO_GO_AROUND
+LAND = mavlink.MAV_CMD_NAV_LAND
+PAUSE_CONTINUE = mavlink.MAV_CMD_DO_PAUSE_CONTINUE
+SAY_LOG = mavlink.MAV_CMD_USER_1
+PHASES = {
+    "ENGAGE": "start",
+    "CENTRE": "pad seen",
+    "DESCEND": "pad below",
+    "ALIGN": "low enough to turn",
+    "LAND": "aligned",
+}
+"""What the ground reads when a phase of a normal landing begins."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _library() -> None:
+    make("host")
+
+
+def hover(profile: str = ARDUPILOT, **where: float) -> Flight:
+    """A flight that hovers near the pad, powered up 2.5 s ago."""
+    flight = Flight(Autopilot(profile, Vehicle(**({"north_m": -0.4, "east_m": 0.3, "height_m": 1.6} | where))))
+    flight.run(2.5)
+    return flight
+
+
+def to_phase(flight: Flight, phase: str) -> None:
+    """Start, and fly on until a phase has just begun."""
+    flight.switch(True)
+    for name, text in PHASES.items():
+        flight.run_to(text)
+        if name == phase:
+            return
+    raise AssertionError(f"no phase {phase}")
+
+
+def commands_after(flight: Flight, time_s: float) -> list[str]:
+    """Types of what could move the vehicle, sent to the autopilot after a time."""
+    moving = ("SET_POSITION_TARGET_LOCAL_NED", "COMMAND_LONG")
+    return [
+        str(sent)
+        for sent in flight.sent[AUTOPILOT]
+        if sent.time_s > time_s
+        and sent.message.get_type() in moving
+        and getattr(sent.message, "command", 0) != mavlink.MAV_CMD_SET_MESSAGE_INTERVAL
+    ]
+
+
+def assert_lets_go(flight: Flight, seconds: float = 3.0) -> None:
+    """From now on nothing is commanded."""
+    since = flight.time_s
+    flight.run(since + seconds)
+    assert commands_after(flight, since) == []
+
+
+def velocities(flight: Flight, time_s: float) -> list[mavlink.MAVLink_message]:
+    """Setpoints after a time."""
+    return [
+        sent.message
+        for sent in flight.sent[AUTOPILOT]
+        if sent.time_s > time_s and sent.message.get_type() == "SET_POSITION_TARGET_LOCAL_NED"
+    ]
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_normal_landing_to_motors_off(profile: str) -> None:
+    flight = hover(profile, heading_rad=0.6)
+    flight.switch(True)
+    flight.run_to("down, motors off", 90)
+    vehicle = flight.vehicle
+    assert [text for _, text in flight.texts] == [
+        f"Touchdown: {text}"
+        for text in (
+            "started",
+            "start",
+            "steering",
+            "pad seen",
+            "pad below",
+            "low enough to turn",
+            "aligned",
+            "touched down",
+            "down, motors off",
+        )
+    ]
+    assert not flight.autopilot.armed
+    assert vehicle.stands
+    assert math.hypot(vehicle.north_m, vehicle.east_m) < 0.1
+    assert abs(math.degrees(vehicle.heading_rad)) < 5
+    assert_lets_go(flight)
+
+
+def test_landing_in_gusts() -> None:
+    flight = hover(ARDUPILOT, heading_rad=-2.0)
+    random.seed(7)
+    gusts = [(random.gauss(0, 0.5), random.gauss(0, 0.5)) for _ in range(200)]
+    flight.wind = lambda time_s: gusts[int(2 * time_s) % len(gusts)]
+    flight.command(LAND)
+    flight.run_to("down, motors off", 90)
+    assert math.hypot(flight.vehicle.north_m, flight.vehicle.east_m) < 0.25
+
+
+def test_every_velocity_is_within_the_limits_and_none_comes_without_a_phase() -> None:
+    flight = hover(north_m=-1.0, east_m=1.0)
+    before = flight.time_s
+    assert velocities(flight, 0.0) == []
+    to_phase(flight, "LAND")
+    speeds = [math.hypot(v.vx, v.vy) for v in velocities(flight, before)]
+    assert 0.3 < max(speeds) <= 0.501
+    assert max(abs(v.vz) for v in velocities(flight, before)) <= 0.41
+    assert len(speeds) > 20 * (flight.time_s - before)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("phase", PHASES)
+def test_pilot_takes_over(phase: str, profile: str) -> None:
+    """Let go at once, whatever the phase."""
+    flight = hover(profile)
+    to_phase(flight, phase)
+    flight.run(flight.time_s + 0.5)
+    flight.firmware.on_bytes(AUTOPILOT, flight.autopilot.set_mode("rtl"), flight.now_us)
+    flight.run_to("mode taken by pilot or failsafe", 0.02)
+    assert_lets_go(flight)
+    assert flight.autopilot.mode == "rtl"
+
+
+@pytest.mark.parametrize("by", ["switch", "command"])
+@pytest.mark.parametrize("phase", PHASES)
+def test_abort(phase: str, by: str) -> None:
+    """The autopilot's own hold is asked for, then nothing any more."""
+    flight = hover()
+    to_phase(flight, phase)
+    if by == "switch":
+        flight.switch(False)
+    else:
+        flight.command(ABORT)
+    flight.run_to("aborted", 0.3)
+    flight.run_to("handed back to the autopilot", 2)
+    assert flight.autopilot.mode == "hold"
+    assert_lets_go(flight)
+
+
+def test_abort_on_the_ground_leaves_the_autopilot_alone() -> None:
+    flight = hover()
+    flight.autopilot.sticky = True
+    to_phase(flight, "LAND")
+    flight.run_to("touched down")
+    flight.command(ABORT)
+    flight.run_to("aborted on the ground", 0.1)
+    assert_lets_go(flight)
+    assert flight.autopilot.mode == "land"
+
+
+Change = Callable[[Flight], None]
+
+
+def _set(**values: object) -> Change:
+    def change(flight: Flight) -> None:
+        for name, value in values.items():
+            setattr(flight if hasattr(flight, name) else flight.autopilot, name, value)
+
+    return change
+
+
+MISSING = {
+    "pad": (_set(pad_hidden=True), _set(pad_hidden=False), "pad lost"),
+    "camera": (_set(camera_dead=True), _set(camera_dead=False), "no frames"),
+    "lidar": (_set(lidar_dead=True), _set(lidar_dead=False), "LiDAR gives nothing"),
+    "lidar wrong": (_set(lidar_factor=0.4), _set(lidar_factor=1.0), "LiDAR contradicts the pad's size"),
+    "attitude": (_set(no_attitude=True), _set(no_attitude=False), "no ATTITUDE from autopilot"),
+}
+
+
+@pytest.mark.parametrize("missing", MISSING)
+@pytest.mark.parametrize("phase", ["CENTRE", "ALIGN"])
+def test_what_is_missing_for_a_while(phase: str, missing: str) -> None:
+    """It stands still, and lands when it is back."""
+    lose, find, text = MISSING[missing]
+    flight = hover()
+    to_phase(flight, phase)
+    lose(flight)
+    flight.run_to(text, 2.0)
+    since = flight.time_s
+    flight.run(since + 1.0)
+    assert all(v.vx == v.vy == v.vz == v.yaw_rate == 0.0 for v in velocities(flight, since))
+    assert velocities(flight, since)
+    find(flight)
+    flight.run_to("pad seen again", 2.0)
+    flight.run_to("down, motors off", 60)
+
+
+@pytest.mark.parametrize(
+    ("missing", "text"),
+    [
+        ("camera", "still no frames"),
+        ("lidar", "LiDAR still gives nothing"),
+        ("lidar wrong", "LiDAR still contradicts"),
+        ("attitude", "still no ATTITUDE"),
+    ],
+)
+def test_what_stays_missing_ends_the_landing(missing: str, text: str) -> None:
+    flight = hover()
+    to_phase(flight, "DESCEND")
+    MISSING[missing][0](flight)
+    flight.run_to(text, 8.0)
+    flight.run_to("handed back to the autopilot", 3.0)
+    assert flight.autopilot.mode == "hold"
+    assert_lets_go(flight)
+
+
+def test_pad_that_stays_lost_is_looked_for_from_higher_up() -> None:
+    flight = hover()
+    to_phase(flight, "ALIGN")
+    flight.pad_hidden = True
+    flight.run_to("pad lost", 2)
+    low_m = flight.vehicle.height_m
+    flight.run_to("pad still lost", 6)
+    flight.run_to("high enough to search", 12)
+    assert flight.vehicle.height_m > low_m + 0.5
+    flight.run_to("no pad found", 45)
+    flight.run_to("handed back to the autopilot", 3)
+    assert math.hypot(flight.vehicle.north_m, flight.vehicle.east_m) < 3.5
+    assert_lets_go(flight)
+
+
+def test_pad_that_is_lost_again_and_again() -> None:
+    flight = hover()
+    to_phase(flight, "CENTRE")
+    for _ in range(3):
+        flight.pad_hidden = True
+        flight.run_to("pad lost", 2)
+        flight.pad_hidden = False
+        flight.run_to("pad seen again", 2)
+    flight.pad_hidden = True
+    flight.run_to("pad lost too often", 2)
+    flight.run_to("handed back to the autopilot", 3)
+
+
+def test_pad_lost_while_the_autopilot_lands() -> None:
+    """High enough it turns back; below TD_COMMIT_M it goes on."""
+    flight = hover()
+    to_phase(flight, "LAND")
+    flight.run(flight.time_s + 0.5)
+    flight.pad_hidden = True
+    flight.run_to("pad lost", 1)
+    flight.run(flight.time_s + 0.5)
+    assert flight.autopilot.mode == "steer"
+    flight.pad_hidden = False
+    flight.run_to("aligned", 30)
+    flight.run(flight.time_s + 20, lambda flying: flying.vehicle.height_m < 0.35)
+    flight.pad_hidden = True
+    flight.run_to("down, motors off", 10)
+    assert math.hypot(flight.vehicle.north_m, flight.vehicle.east_m) < 0.15
+
+
+def test_autopilot_falls_silent() -> None:
+    flight = hover()
+    to_phase(flight, "DESCEND")
+    flight.autopilot.silent = True
+    flight.run_to("autopilot is silent", 4)
+    assert_lets_go(flight)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("how", ["refuses", "deaf"])
+def test_autopilot_does_not_let_itself_be_steered(how: str, profile: str) -> None:
+    flight = hover(profile)
+    setattr(flight.autopilot, how, True)
+    flight.switch(True)
+    flight.run_to("autopilot refuses to be steered", 5)
+    assert_lets_go(flight)
+    assert flight.autopilot.mode == "loiter"
+
+
+def test_autopilot_refuses_to_land_and_then_to_hold() -> None:
+    flight = hover()
+    to_phase(flight, "ALIGN")
+    flight.autopilot.refuses = True
+    flight.run_to("autopilot refuses a mode", 20)
+    flight.run_to("autopilot refuses to hold: take over", 5)
+    assert_lets_go(flight)
+
+
+@pytest.mark.parametrize(("phase", "text"), [("CENTRE", "battery low: lands at once"), ("ALIGN", "battery low: lands at once")])
+def test_low_battery_with_the_pad_in_sight(phase: str, text: str) -> None:
+    flight = hover()
+    to_phase(flight, phase)
+    flight.autopilot.battery_percent = 10
+    flight.run_to(text, 2)
+    flight.run_to("down, motors off", 30)
+
+
+def test_low_battery_without_a_pad() -> None:
+    flight = hover()
+    flight.pad_hidden = True
+    flight.switch(True)
+    flight.run_to("steering", 3)
+    flight.autopilot.battery_percent = 10
+    flight.run_to("battery low and no pad in sight", 2)
+    flight.run_to("handed back to the autopilot", 3)
+
+
+def test_ground_link_lost() -> None:
+    """It counts only where the ground said that it is needed."""
+    flight = hover()
+    heartbeat = mavlink.MAVLink_heartbeat_message(mavlink.MAV_TYPE_GCS, 8, 0, 0, 4, 3)
+    name = b"TD_GCS_NEEDED"
+    flight.from_ground(mavlink.MAVLink_param_set_message(1, 191, name, 1.0, mavlink.MAV_PARAM_TYPE_REAL32))
+    flight.from_ground(heartbeat)
+    to_phase(flight, "CENTRE")
+    flight.run_to("ground station lost", 6)
+    flight.run_to("handed back to the autopilot", 3)
+
+
+def test_hold_and_go_on() -> None:
+    flight = hover()
+    to_phase(flight, "DESCEND")
+    flight.command(PAUSE_CONTINUE, 0)
+    flight.run_to("held by the ground", 0.1)
+    since = flight.time_s
+    flight.run(since + 2)
+    assert all(v.vx == v.vy == v.vz == v.yaw_rate == 0.0 for v in velocities(flight, since))
+    flight.command(PAUSE_CONTINUE, 1)
+    flight.run_to("goes on", 0.1)
+    flight.run_to("down, motors off", 60)
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        (_set(battery_percent=5), "no start: battery is low"),
+        (_set(camera_dead=True), "no start: no frames"),
+        (_set(lidar_dead=True), "no start: LiDAR gives nothing"),
+        (_set(no_attitude=True), "no start: no ATTITUDE from autopilot"),
+        (_set(armed=False), "no start: motors are off"),
+        (_set(silent=True), "no start: autopilot is silent"),
+    ],
+)
+def test_no_start(change: Change, text: str) -> None:
+    flight = hover()
+    change(flight)
+    flight.run(flight.time_s + 4)
+    flight.command(LAND)
+    flight.run_to(text, 0.1)
+    assert_lets_go(flight)
+
+
+def test_switch_that_is_on_at_power_up_starts_nothing() -> None:
+    flight = Flight(Autopilot(ARDUPILOT, Vehicle()))
+    flight.switch(True)
+    flight.run(5.0)
+    assert not any("start" in text for _, text in flight.texts[1:])
+    flight.switch(False)
+    flight.run(6.0)
+    flight.switch(True)
+    flight.run_to("start", 1)
+
+
+def test_motors_that_stay_on_after_touchdown() -> None:
+    flight = hover()
+    flight.autopilot.sticky = True
+    to_phase(flight, "LAND")
+    flight.run_to("touched down", 20)
+    touched_s = flight.time_s
+    flight.run_to("down, motors off", 8)
+    assert flight.time_s - touched_s > 5.0
+
+
+def test_garbage_on_both_wires_changes_nothing() -> None:
+    flight = hover()
+    noise = random.Random(3)
+    tick = flight.firmware.tick
+
+    def noisy_tick(now_us: int, lidar_mm: int | None = 1000, age_us: int = 0) -> None:
+        for link in (AUTOPILOT, GROUND):
+            flight.firmware.on_bytes(link, noise.randbytes(noise.randrange(40)), now_us)
+        tick(now_us, lidar_mm, age_us)
+
+    flight.firmware.tick = noisy_tick
+    to_phase(flight, "LAND")
+    flight.run_to("down, motors off", 30)
+
+
+def test_log_of_phases_is_said_when_asked_for() -> None:
+    flight = hover()
+    to_phase(flight, "CENTRE")
+    flight.command(ABORT)
+    flight.run_to("handed back", 3)
+    seen = len(flight.texts)
+    flight.command(SAY_LOG)
+    flight.run(flight.time_s + 1)
+    rows = [text.split(" ", 1)[1] for _, text in flight.texts[seen:]]
+    assert rows == [
+        "STANDBY>ENGAGE: start",
+        "ENGAGE>SEARCH: steering",
+        "SEARCH>CENTRE: pad seen",
+        "CENTRE>GIVE_UP: aborted",
+        "GIVE_UP>STANDBY: handed back to the autopilot",
+    ]
+
+
+def test_parameters_as_a_ground_station_sees_them() -> None:
+    flight = hover()
+    flight.from_ground(mavlink.MAVLink_param_request_list_message(1, 191))
+    flight.run(flight.time_s + 2)
+    values = [sent.message for sent in flight.sent[GROUND] if sent.message.get_type() == "PARAM_VALUE"]
+    assert [value.param_index for value in values] == list(range(values[0].param_count))
+    assert len({value.param_id for value in values}) == len(values)
+
+    def set_speed(value: float) -> float:
+        kind = mavlink.MAV_PARAM_TYPE_REAL32
+        flight.from_ground(mavlink.MAVLink_param_set_message(1, 191, b"TD_SPEED", value, kind))
+        flight.run(flight.time_s + 0.1)
+        answers = [sent.message for sent in flight.sent[GROUND] if sent.message.get_type() == "PARAM_VALUE"]
+        return answers[-1].param_value
+
+    assert set_speed(0.25) == 0.25
+    assert set_speed(25.0) == 0.25
+    assert set_speed(math.nan) == 0.25
+
+
+def test_message_intervals_are_asked_for_until_they_come() -> None:
+    flight = Flight(Autopilot(ARDUPILOT, Vehicle()))
+    hear = flight.autopilot.hear
+    flight.autopilot.hear = lambda _data, _now_us: b""
+    flight.run(4.0)
+    asked = [sent for sent in flight.sent[AUTOPILOT] if sent.message.get_type() == "COMMAND_LONG"]
+    attitude = [sent for sent in asked if sent.message.param1 == mavlink.MAVLINK_MSG_ID_ATTITUDE]
+    assert len(attitude) >= 3
+    flight.autopilot.hear = hear
+    flight.run(6.0)
+    since = flight.time_s
+    flight.run(8.0)
+    assert not [s for s in flight.sent[AUTOPILOT] if s.time_s > since and s.message.get_type() == "COMMAND_LONG"]
