@@ -68,7 +68,7 @@ static void send_landing_target(struct app *app, const struct landing_record *re
     };
 
     links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
-         mavlink_out_landing_target(&app->links.out[APP_LINK_AUTOPILOT], &target, bytes));
+               mavlink_out_landing_target(&app->links.out[APP_LINK_AUTOPILOT], &target, bytes));
 }
 
 // `pad` is NULL when none was found.
@@ -100,8 +100,8 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
     values[APP_PAD_OBJECT_COUNT] = (float)record->header.object_count;
     values[APP_PAD_FLAGS] = (float)flags;
     links_send(&app->links, APP_LINK_GROUND, bytes,
-         mavlink_out_float_array(&app->links.out[APP_LINK_GROUND], record->header.start_time_us, PAD_ARRAY_ID, "PAD", values,
-                                 APP_PAD_FIELDS, bytes));
+               mavlink_out_float_array(&app->links.out[APP_LINK_GROUND], record->header.start_time_us, PAD_ARRAY_ID,
+                                       "PAD", values, APP_PAD_FIELDS, bytes));
 }
 
 struct area_limits {
@@ -254,14 +254,15 @@ static void send_health(struct app *app, uint64_t now_us)
     float values[APP_HEALTH_FIELDS];
 
     app->health[APP_HEALTH_MIN_AREA_PX] = app->min_area_px;
+    app->health[APP_HEALTH_PHASE] = (uint32_t)app->flight.landing.phase;
     app->health[APP_HEALTH_DROPPED_AUTOPILOT] = app->links.dropped[APP_LINK_AUTOPILOT];
     app->health[APP_HEALTH_DROPPED_GROUND] = app->links.dropped[APP_LINK_GROUND];
     for (int i = 0; i < APP_HEALTH_FIELDS; i++) {
         values[i] = (float)app->health[i];
     }
     links_send(&app->links, APP_LINK_GROUND, bytes,
-         mavlink_out_float_array(&app->links.out[APP_LINK_GROUND], now_us, HEALTH_ARRAY_ID, "HEALTH", values,
-                                 APP_HEALTH_FIELDS, bytes));
+               mavlink_out_float_array(&app->links.out[APP_LINK_GROUND], now_us, HEALTH_ARRAY_ID, "HEALTH", values,
+                                       APP_HEALTH_FIELDS, bytes));
 }
 
 // True once a period. A caller that comes late gets one turn, not a burst.
@@ -320,7 +321,7 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
     if (due(&app->next_heartbeat_us, now_us, HEARTBEAT_PERIOD_US)) {
         for (int link = 0; link < APP_LINKS; link++) {
             links_send(&app->links, (enum app_link)link, bytes,
-                 mavlink_out_heartbeat(&app->links.out[link], app->fault == NULL, bytes));
+                       mavlink_out_heartbeat(&app->links.out[link], app->fault == NULL, bytes));
         }
         if (app->fault != NULL) {
             links_say(&app->links, MAVLINK_OUT_CRITICAL, app->fault);
@@ -332,8 +333,8 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
     app->lidar_worked = app->lidar_worked || (lidar != NULL && lidar->valid);
     if (lidar != NULL && app->lidar_worked && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {
         links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
-             mavlink_out_distance_sensor(&app->links.out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
-                                         fusion_lidar_usable(lidar), lidar->distance_mm, bytes));
+                   mavlink_out_distance_sensor(&app->links.out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
+                                               fusion_lidar_usable(lidar), lidar->distance_mm, bytes));
     }
     if (app->fault == NULL) {
         watch_camera(app, now_us);

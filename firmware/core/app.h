@@ -60,6 +60,7 @@ enum app_health_field {
     APP_HEALTH_FRAMES_UNWRITTEN, // frames that the hardware could not write
     APP_HEALTH_WRITE_ERRORS,     // looks that found a refused memory write
     APP_HEALTH_LIDAR_FAULTS,     // looks that found a LiDAR fault
+    APP_HEALTH_PHASE,            // enum landing_phase
     APP_HEALTH_FIELDS
 };
 

@@ -160,8 +160,9 @@ bool autopilot_refuses(const struct autopilot *autopilot, uint64_t now_us)
 
 bool autopilot_mode_request(struct autopilot *autopilot, uint64_t now_us, struct autopilot_command *command)
 {
-    if (autopilot->wanted == LANDING_MODE_NONE || autopilot->profile == AUTOPILOT_UNKNOWN || autopilot_is_in(autopilot, autopilot->wanted) ||
-        autopilot->requests >= AUTOPILOT_REQUESTS_MAX || now_us < autopilot->next_request_us) {
+    if (autopilot->wanted == LANDING_MODE_NONE || autopilot->profile == AUTOPILOT_UNKNOWN ||
+        autopilot_is_in(autopilot, autopilot->wanted) || autopilot->requests >= AUTOPILOT_REQUESTS_MAX ||
+        now_us < autopilot->next_request_us) {
         return false;
     }
     const uint32_t code = code_of(autopilot->profile, autopilot->wanted);

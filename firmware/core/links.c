@@ -20,5 +20,6 @@ void links_say(struct links *links, enum mavlink_out_severity severity, const ch
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
 
-    links_send(links, APP_LINK_GROUND, bytes, mavlink_out_status_text(&links->out[APP_LINK_GROUND], severity, text, bytes));
+    links_send(links, APP_LINK_GROUND, bytes,
+               mavlink_out_status_text(&links->out[APP_LINK_GROUND], severity, text, bytes));
 }

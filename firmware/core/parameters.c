@@ -14,13 +14,13 @@
 struct row {
     const char *name;
     float least;
-    float greatest;
-    float standard;
+    float most;
+    float usual;
 };
 
 static const struct row rows[PARAMETERS_COUNT] = {
-#define PARAMETERS_ROW(member, name, least, greatest, standard) {name, least, greatest, standard},
-    PARAMETERS(PARAMETERS_ROW)
+#define PARAMETERS_ROW(member, name, least, most, usual) {name, least, most, usual},
+    LANDING_PARAMETERS(PARAMETERS_ROW)
 #undef PARAMETERS_ROW
 };
 
@@ -45,7 +45,7 @@ float parameters_get(const struct parameters *parameters, size_t index)
 void parameters_init(struct parameters *parameters)
 {
     for (size_t i = 0; i < PARAMETERS_COUNT; i++) {
-        put(parameters, i, rows[i].standard);
+        put(parameters, i, rows[i].usual);
     }
 }
 
@@ -70,7 +70,7 @@ int parameters_set(struct parameters *parameters, size_t index, float value)
         return PARAMETERS_E_NAME;
     }
     // Also true for NaN.
-    if (!(value >= rows[index].least && value <= rows[index].greatest)) {
+    if (!(value >= rows[index].least && value <= rows[index].most)) {
         return PARAMETERS_E_RANGE;
     }
     put(parameters, index, value);

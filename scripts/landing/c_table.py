@@ -55,6 +55,27 @@ def header(landing: Landing) -> str:
     return "\n".join(lines) + "\n"
 
 
+def parameters(landing: Landing) -> str:
+    """Text of firmware/generated/landing_parameters.h."""
+    rows = [
+        f'    X({p.member}, "{p.name}", {float(p.least)}F, {float(p.most)}F, {float(p.usual)}F)'
+        for p in landing.parameters
+    ]
+    lines = [
+        LICENSE,
+        GENERATED,
+        "#ifndef LANDING_PARAMETERS_H",
+        "#define LANDING_PARAMETERS_H",
+        "",
+        "// X(member, name on the wire, least, most, usual)",
+        "#define LANDING_PARAMETERS(X) \\",
+        " \\\n".join(rows),
+        "",
+        "#endif",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def source(landing: Landing) -> str:
     """Text of firmware/generated/landing_table.c."""
     severity = {"INFO": 6, "WARNING": 4, "CRITICAL": 2}

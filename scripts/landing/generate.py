@@ -9,8 +9,9 @@ from scripts.page_block import with_block
 
 HEADER = "firmware/generated/landing_table.h"
 C_SOURCE = "firmware/generated/landing_table.c"
+PARAMETERS = "firmware/generated/landing_parameters.h"
 PAGE = "docs/landing.md"
-FILES = (HEADER, C_SOURCE, PAGE)
+FILES = (HEADER, C_SOURCE, PARAMETERS, PAGE)
 
 
 def write_all(root: Path, out: Path) -> list[Path]:
@@ -19,7 +20,12 @@ def write_all(root: Path, out: Path) -> list[Path]:
     text = (root / PAGE).read_text(encoding="utf-8")
     for name, content in page.blocks(landing).items():
         text = with_block(text, name, content, PAGE)
-    texts = {HEADER: c_table.header(landing), C_SOURCE: c_table.source(landing), PAGE: text}
+    texts = {
+        HEADER: c_table.header(landing),
+        C_SOURCE: c_table.source(landing),
+        PARAMETERS: c_table.parameters(landing),
+        PAGE: text,
+    }
     for name, content in texts.items():
         path = out / name
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -2,6 +2,7 @@
 """`firmware/landing.toml`, read and checked."""
 
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ SOURCE = "firmware/landing.toml"
 MODES = ("none", "steer", "land", "hold")
 STEERS = ("none", "stop", "search", "centre", "descend", "align", "climb")
 SEVERITIES = ("INFO", "WARNING", "CRITICAL")
+NAME_CHARS = 16
 REASON_CHARS = 39
 """With "Touchdown: " in front it is one STATUSTEXT of 50 characters."""
 
@@ -56,12 +58,34 @@ class Rule:
 
 
 @dataclass(frozen=True)
+class Parameter:
+    """What the ground may set.
+
+    Attributes:
+        member: Of the C structure; ends with its unit.
+        name: On the wire, at most 16 characters.
+        least: Lower limit.
+        most: Upper limit.
+        usual: What holds until it is set.
+        says: What it is.
+    """
+
+    member: str
+    name: str
+    least: float
+    most: float
+    usual: float
+    says: str
+
+
+@dataclass(frozen=True)
 class Landing:
     """The whole table; the order of the rules counts."""
 
     phases: tuple[Phase, ...]
     facts: tuple[Fact, ...]
     rules: tuple[Rule, ...]
+    parameters: tuple[Parameter, ...]
 
     def phase(self, name: str) -> Phase:
         """The phase of a name."""
@@ -121,16 +145,20 @@ def _landing(tables: dict[str, Any]) -> Landing:
             )
             for entry in tables["rules"]
         ),
+        parameters=tuple(Parameter(**entry) for entry in tables["parameters"]),
     )
 
 
-def _mistakes(landing: Landing):  # noqa: ANN202 -- a generator of sentences
+def _mistakes(landing: Landing) -> Iterator[str]:
     phases = {phase.name for phase in landing.phases}
     facts = {fact.name for fact in landing.facts}
     if len(phases) != len(landing.phases) or len(facts) != len(landing.facts):
         yield "a phase or a fact is defined twice"
     if len(facts) > 32 or len(phases) > 32:
         yield "more than 32 phases or facts do not fit into the masks"
+    for parameter in landing.parameters:
+        if not parameter.least <= parameter.usual <= parameter.most or len(parameter.name) > NAME_CHARS:
+            yield f"{parameter.name} is not within its limits, or its name is longer than {NAME_CHARS} characters"
     for phase in landing.phases:
         if phase.mode not in MODES or phase.steer not in STEERS or phase.limit_s < 0:
             yield f"{phase.name} has a mode, a steer or a limit_s that there is not"

@@ -29,6 +29,7 @@ def blocks(landing: Landing) -> dict[str, str]:
         "failures": _failures(landing),
         "facts": _facts(landing),
         "rules": _rules(landing),
+        "parameters": _parameters(landing),
     }
 
 
@@ -73,6 +74,12 @@ def _rules(landing: Landing) -> str:
         f"| {rule.reason} |"
         for number, rule in enumerate(landing.rules, 1)
     ]
+    return "\n".join(lines)
+
+
+def _parameters(landing: Landing) -> str:
+    lines = ["| parameter | what it is | least | usual | most |", "|---|---|---|---|---|"]
+    lines += [f"| {p.name} | {p.says} | {p.least:g} | {p.usual:g} | {p.most:g} |" for p in landing.parameters]
     return "\n".join(lines)
 
 

@@ -15,7 +15,13 @@ from sim.flight.vehicle import Vehicle
 ARDUPILOT, PX4 = "ardupilot", "px4"
 CODES = {
     ARDUPILOT: {"steer": 4, "land": 9, "hold": 17, "loiter": 5, "rtl": 6},
-    PX4: {"steer": 6 << 16, "land": 4 << 16 | 9 << 24, "hold": 4 << 16 | 3 << 24, "loiter": 3 << 16, "rtl": 4 << 16 | 5 << 24},
+    PX4: {
+        "steer": 6 << 16,
+        "land": 4 << 16 | 9 << 24,
+        "hold": 4 << 16 | 3 << 24,
+        "loiter": 3 << 16,
+        "rtl": 4 << 16 | 5 << 24,
+    },
 }
 """HEARTBEAT.custom_mode by what the mode is for; "loiter" is what the pilot flies in."""
 _SETPOINT_TIMEOUT_US = {ARDUPILOT: 3_000_000, PX4: 500_000}
@@ -39,8 +45,16 @@ class Autopilot:
         refuses: It answers mode requests with DENIED.
         deaf: It does not act on mode requests, and says nothing of it.
         sticky: It does not disarm after touchdown by itself.
-        rc_us: Channels, 0 = none.
+        no_attitude: It sends no ATTITUDE.
         battery_percent: As SYS_STATUS says.
+        rc_us: Channels, 0 = none.
+        setpoint: Newest velocity ahead, right, up and yaw rate.
+        setpoint_us: When it came.
+        target: Newest angle_x and angle_y of LANDING_TARGET.
+        target_us: When it came.
+        stood_us: Since when it stands in LAND.
+        intervals_us: Of the messages that it sends, by their numbers.
+        next_us: When each is due.
     """
 
     profile: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the hardware would report of the pad from a pose: painted, labelled, as objects. No light, no noise, no ground."""
+"""What the hardware would report of the pad from a pose: painted and labelled. No light, no noise, no ground."""
 
 import cv2
 import numpy as np

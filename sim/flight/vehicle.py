@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A multicopter as its velocity controller makes it: velocities follow with a lag, it leans with what it accelerates."""
+"""A multicopter under its velocity controller: velocities follow with a lag, it leans as it accelerates."""
 
 import math
 from dataclasses import dataclass
