@@ -93,7 +93,8 @@ class View:
         how = ", predicted" if int(pad["flags"]) & _BRIDGED else ""
         return (
             f"pad     right {pad['right_m']:+.2f} m, ahead {pad['forward_m']:+.2f} m, "
-            f"turned {pad['angle_deg']:+.0f} degrees, {altitude}, doubt {pad['doubt']:.2f}{how}, frame {pad['frame_number']:.0f}"
+            f"turned {pad['angle_deg']:+.0f} degrees, {altitude}, doubt {pad['doubt']:.2f}{how}, "
+            f"frame {pad['frame_number']:.0f}"
         )
 
     def _counts(self) -> str:
