@@ -7,6 +7,7 @@
 #include "app.h"
 #include "board.h"
 #include "gic.h"
+#include "keep.h"
 #include "landing_hw.h"
 #include "timer.h"
 #include "uart.h"
@@ -48,6 +49,16 @@ static void sleep_until_interrupt(void)
     interrupts_enable();
 }
 
+static void report_crash(void)
+{
+    uint32_t kind;
+    uint32_t address;
+
+    if (crash_take(&keep.crash, &kind, &address)) {
+        app_on_crash(&app, kind, address);
+    }
+}
+
 int main(void)
 {
     static const struct app_port port = {.write = write, .context = NULL};
@@ -61,6 +72,8 @@ int main(void)
     const char *fault = landing_hw_fault();
     const bool has_hardware = fault == NULL;
     app_init(&app, &port, has_hardware ? landing_hw_time_us() : timer_now_us(), fault);
+    report_crash();
+    app_load_parameters(&app, keep.parameters, sizeof keep.parameters);
     if (has_hardware) {
         landing_hw_start(app_min_area_px(&app), app_threshold_register(&app));
     }
@@ -92,6 +105,7 @@ int main(void)
         } else {
             app_tick(&app, now_us, NULL);
         }
+        (void)app_parameters_to_keep(&app, keep.parameters);
         sleep_until_interrupt();
     }
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "crash.h"
 #include "pad_geometry.h"
 
 #define HEARTBEAT_PERIOD_US 1000000U
@@ -47,6 +48,29 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
         mavlink_in_init(&app->in[link]);
     }
     links_say(&app->links, MAVLINK_OUT_INFO, "Touchdown: started");
+}
+
+void app_load_parameters(struct app *app, const uint8_t *bytes, size_t size)
+{
+    (void)parameters_load(&app->flight.parameters, bytes, size);
+}
+
+bool app_parameters_to_keep(struct app *app, uint8_t *bytes)
+{
+    if (!app->flight.parameters_changed) {
+        return false;
+    }
+    app->flight.parameters_changed = false;
+    parameters_store(&app->flight.parameters, bytes);
+    return true;
+}
+
+void app_on_crash(struct app *app, uint32_t kind, uint32_t address)
+{
+    char text[CRASH_TEXT_CHARS];
+
+    crash_text(text, "restarted: ", kind, address);
+    links_say(&app->links, MAVLINK_OUT_CRITICAL, text);
 }
 
 // The fused altitude scales what the pad's size says.

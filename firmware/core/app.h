@@ -99,6 +99,15 @@ struct app {
 // landing cannot work: then HEARTBEAT is CRITICAL and the sentence is repeated.
 void app_init(struct app *app, const struct app_port *port, uint64_t now_us, const char *fault);
 
+// Parameters as they were kept over a restart, if they were. Before anything else happens.
+void app_load_parameters(struct app *app, const uint8_t *bytes, size_t size);
+
+// True, with PARAMETERS_STORED_BYTES to be kept, when the ground has set one since the last call.
+bool app_parameters_to_keep(struct app *app, uint8_t *bytes);
+
+// Says why the run before this one ended.
+void app_on_crash(struct app *app, uint32_t kind, uint32_t address);
+
 // One record of `size_bytes`, as copied. Returns 0, or the RECORD_E_* for which
 // it was rejected. Frames go forward only: one that is not newer than the last is
 // dropped (RECORD_E_OLD), so that no LANDING_TARGET repeats and no time goes back.

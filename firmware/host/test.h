@@ -20,6 +20,7 @@ void test_attitude(void);
 void test_autopilot(void);
 void test_byte_ring(void);
 void test_camera(void);
+void test_crash(void);
 void test_detect(void);
 void test_detect_not(void);
 void test_factor_search(void);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "app.h"
+#include "crash.h"
 #include "test.h"
 #include "test_scene.h"
 
@@ -220,8 +221,33 @@ static void test_min_area_of_a_height(void)
     CHECK(rest_at(500U, FUSION_LIDAR_MAX_AGE_US + 1U) == 30U);
 }
 
+static void test_restart(void)
+{
+    uint8_t bytes[PARAMETERS_STORED_BYTES];
+
+    test_case("parameters are kept when the ground has set one, once");
+    start();
+    CHECK(!app_parameters_to_keep(&app, bytes));
+    app.flight.parameters.speed_m_s = 0.3F;
+    app.flight.parameters_changed = true;
+    CHECK(app_parameters_to_keep(&app, bytes));
+    CHECK(!app_parameters_to_keep(&app, bytes));
+    start();
+    CHECK(app.flight.parameters.speed_m_s == 0.5F);
+    app_load_parameters(&app, bytes, sizeof bytes);
+    CHECK(app.flight.parameters.speed_m_s == 0.3F);
+    bytes[8]++;
+    start();
+    app_load_parameters(&app, bytes, sizeof bytes);
+    CHECK(app.flight.parameters.speed_m_s == 0.5F);
+    test_case("why the run before ended");
+    app_on_crash(&app, CRASH_DATA, 0x2000000U);
+    CHECK(strcmp(last_text, "restarted: data abort at 02000000") == 0);
+}
+
 void test_app(void)
 {
+    test_restart();
     test_full_wire();
     test_no_thresholds_yet();
     test_min_area();

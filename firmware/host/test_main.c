@@ -45,6 +45,7 @@ int main(void)
     test_autopilot();
     test_byte_ring();
     test_camera();
+    test_crash();
     test_detect();
     test_detect_not();
     test_factor_search();
