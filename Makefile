@@ -100,6 +100,10 @@ accuracy: setup ## How well the pad is found, against truth and goals: [FRAMES=f
 calibrate: setup ## Measure the camera from photos of a chessboard or the pad: FRAMES=folder [BOARD=9x6|pad] [SQUARE_MM=25] [RADIAL=0|1|2]
 	@$(PYTHON) -m scripts.calibrate --frames "$(FRAMES)" $(if $(BOARD),--board "$(BOARD)") $(if $(SQUARE_MM),--square-mm "$(SQUARE_MM)") $(if $(RADIAL),--radial "$(RADIAL)")
 
+.PHONY: flight
+flight: setup ## Fly one landing in simulation, print its steps and draw it: [PROFILE=px4] [GUSTS=0.5] [SEED=n]
+	@$(PYTHON) -m sim.flight.run $(if $(PROFILE),--profile "$(PROFILE)") $(if $(GUSTS),--gusts "$(GUSTS)") $(if $(SEED),--seed "$(SEED)")
+
 .PHONY: ground
 ground: setup ## Show a Touchdown in this terminal, start, hold or abort it: LINK=port|udp:14550 [BAUD=57600] [DO=abort]
 	@$(PYTHON) -m scripts.ground_station --link "$(LINK)" $(if $(BAUD),--baud "$(BAUD)") $(if $(DO),--do "$(DO)")

@@ -10,11 +10,12 @@ _Noreturn void fault_report(uint32_t kind, uint32_t address)
 {
     struct mavlink_out out = {.sequence = 0};
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
-    char text[CRASH_TEXT_CHARS];
+    struct text text = {.length = 0U};
 
     crash_write(&keep.crash, kind, address);
-    crash_text(text, "Touchdown: ", kind, address);
-    uart_write_polled(UART_1, bytes, mavlink_out_status_text(&out, MAVLINK_OUT_CRITICAL, text, bytes));
+    text_append(&text, "Touchdown: ");
+    crash_append(&text, kind, address);
+    uart_write_polled(UART_1, bytes, mavlink_out_status_text(&out, MAVLINK_OUT_CRITICAL, text.chars, bytes));
     for (;;) {
         __asm__ volatile("wfi");
     }

@@ -67,10 +67,11 @@ bool app_parameters_to_keep(struct app *app, uint8_t *bytes)
 
 void app_on_crash(struct app *app, uint32_t kind, uint32_t address)
 {
-    char text[CRASH_TEXT_CHARS];
+    struct text text = {.length = 0U};
 
-    crash_text(text, "restarted: ", kind, address);
-    links_say(&app->links, MAVLINK_OUT_CRITICAL, text);
+    text_append(&text, "restarted: ");
+    crash_append(&text, kind, address);
+    links_say(&app->links, MAVLINK_OUT_CRITICAL, text.chars);
 }
 
 // The fused altitude scales what the pad's size says.

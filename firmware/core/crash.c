@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crash.h"
 
-#include <stddef.h>
-
 #define MAGIC 0x48535243U // "CRSH"
-#define HEX_DIGITS 8U
 
 static const char *const kinds[CRASH_KINDS] = {"undefined instruction", "supervisor call", "prefetch abort",
                                                "data abort", "fast interrupt"};
@@ -36,24 +33,9 @@ bool crash_take(volatile struct crash_record *record, uint32_t *kind, uint32_t *
     return true;
 }
 
-static size_t append(char *text, size_t at, const char *more)
+void crash_append(struct text *text, uint32_t kind, uint32_t address)
 {
-    for (size_t i = 0; more[i] != '\0' && at + 1U < CRASH_TEXT_CHARS; i++) {
-        text[at++] = more[i];
-    }
-    text[at] = '\0';
-    return at;
-}
-
-void crash_text(char *text, const char *before, uint32_t kind, uint32_t address)
-{
-    char hexadecimal[HEX_DIGITS + 1U] = {0};
-
-    for (uint32_t i = 0; i < HEX_DIGITS; i++) {
-        hexadecimal[i] = "0123456789abcdef"[(address >> (28U - 4U * i)) & 0xFU];
-    }
-    size_t at = append(text, 0U, before);
-    at = append(text, at, kind < CRASH_KINDS ? kinds[kind] : "unknown fault");
-    at = append(text, at, " at ");
-    (void)append(text, at, hexadecimal);
+    text_append(text, kind < CRASH_KINDS ? kinds[kind] : "unknown fault");
+    text_append(text, " at ");
+    text_append_hexadecimal(text, address);
 }

@@ -7,9 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "mavlink_out.h"
-
-#define CRASH_TEXT_CHARS (MAVLINK_OUT_STATUS_TEXT_CHARS + 1U)
+#include "text.h"
 
 // In the order of the exception entries of board/start.S.
 enum crash_kind {
@@ -33,7 +31,7 @@ void crash_write(volatile struct crash_record *record, uint32_t kind, uint32_t a
 // True, with what it says, when the record is one; it is then no longer.
 bool crash_take(volatile struct crash_record *record, uint32_t *kind, uint32_t *address);
 
-// "<before><kind> at <address>", cut off after CRASH_TEXT_CHARS - 1.
-void crash_text(char *text, const char *before, uint32_t kind, uint32_t address);
+// "<kind> at <address>" after what is there.
+void crash_append(struct text *text, uint32_t kind, uint32_t address);
 
 #endif

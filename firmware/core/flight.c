@@ -7,6 +7,7 @@
 #include <common/mavlink.h>
 
 #include "ground.h"
+#include "text.h"
 
 #define RAD_PER_DEG 0.017453292519943295
 #define US_PER_MS 1000U
@@ -19,8 +20,6 @@
 #define SWITCH_OFF_US 1300U
 #define NO_CHANNEL_US 65535U
 #define CHANNEL_LEAST_US 800U // less is a receiver without a transmitter
-
-static const char prefix[] = "Touchdown: ";
 
 void flight_init(struct flight *flight, uint64_t now_us)
 {
@@ -164,17 +163,11 @@ static void ask_to_disarm(struct flight *flight, struct links *links, uint64_t n
 
 static void say(struct links *links, const struct landing_rule *rule)
 {
-    char text[MAVLINK_OUT_STATUS_TEXT_CHARS + 1U];
-    size_t at = 0U;
+    struct text text = {.length = 0U};
 
-    for (size_t i = 0U; prefix[i] != '\0'; i++) {
-        text[at++] = prefix[i];
-    }
-    for (size_t i = 0U; rule->reason[i] != '\0' && at + 1U < sizeof text; i++) {
-        text[at++] = rule->reason[i];
-    }
-    text[at] = '\0';
-    links_say(links, (enum mavlink_out_severity)rule->severity, text);
+    text_append(&text, "Touchdown: ");
+    text_append(&text, rule->reason);
+    links_say(links, (enum mavlink_out_severity)rule->severity, text.chars);
 }
 
 static void step(struct flight *flight, struct links *links, uint64_t now_us)

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ground.h"
 
-#include <string.h>
-
 #include <common/mavlink.h>
+
+#include "text.h"
 
 #define NOTHING_TO_SAY UINT32_MAX
 // A message of 60 bytes takes 10 ms at 57600 baud, beside what goes out anyway.
 #define SAY_PERIOD_US 50000U
 #define MS_PER_S 1000U
 #define US_PER_MS 1000U
-#define TEXT_CHARS (MAVLINK_OUT_STATUS_TEXT_CHARS + 1U)
-#define TIME_DIGITS_MAX 10
 
 static enum landing_phase phase_of(const struct flight *flight)
 {
@@ -111,43 +109,22 @@ void ground_on_parameter(struct flight *flight, struct links *links, enum app_li
     say_parameter(flight, links, link, (size_t)index);
 }
 
-static size_t append(char *text, size_t at, const char *words)
-{
-    while (*words != '\0' && at + 1U < TEXT_CHARS) {
-        text[at++] = *words++;
-    }
-    text[at] = '\0';
-    return at;
-}
-
-static size_t append_number(char *text, size_t at, uint32_t number)
-{
-    char digits[TIME_DIGITS_MAX + 1] = {0};
-    int first = TIME_DIGITS_MAX;
-
-    do {
-        digits[--first] = (char)('0' + (char)(number % 10U));
-        number /= 10U;
-    } while (number != 0U && first > 0);
-    return append(text, at, &digits[first]);
-}
-
 // "123.4 SEARCH>CENTRE: pad seen"
 static void say_row(struct links *links, const struct flight_log_row *row)
 {
-    char text[TEXT_CHARS];
+    struct text text = {.length = 0U};
     const uint32_t time_ms = (uint32_t)(row->time_us / US_PER_MS);
-    size_t at = append_number(text, 0U, time_ms / MS_PER_S);
 
-    at = append(text, at, ".");
-    at = append_number(text, at, time_ms % MS_PER_S / 100U);
-    at = append(text, at, " ");
-    at = append(text, at, landing_phase_table[row->from].name);
-    at = append(text, at, ">");
-    at = append(text, at, landing_phase_table[row->to].name);
-    at = append(text, at, ": ");
-    (void)append(text, at, row->reason);
-    links_say(links, MAVLINK_OUT_INFO, text);
+    text_append_number(&text, time_ms / MS_PER_S);
+    text_append(&text, ".");
+    text_append_number(&text, time_ms % MS_PER_S / 100U);
+    text_append(&text, " ");
+    text_append(&text, landing_phase_table[row->from].name);
+    text_append(&text, ">");
+    text_append(&text, landing_phase_table[row->to].name);
+    text_append(&text, ": ");
+    text_append(&text, row->reason);
+    links_say(links, MAVLINK_OUT_INFO, text.chars);
 }
 
 void ground_tick(struct flight *flight, struct links *links, uint64_t now_us)

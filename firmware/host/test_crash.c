@@ -7,7 +7,6 @@
 void test_crash(void)
 {
     struct crash_record record;
-    char text[CRASH_TEXT_CHARS];
     uint32_t kind = 99U;
     uint32_t address = 99U;
 
@@ -32,12 +31,20 @@ void test_crash(void)
     crash_write(&record, CRASH_KINDS, 0U);
     CHECK(!crash_take(&record, &kind, &address));
     test_case("in words");
-    crash_text(text, "Touchdown: ", CRASH_FAST_INTERRUPT, 0xdeadbeefU);
-    CHECK(strcmp(text, "Touchdown: fast interrupt at deadbeef") == 0);
-    crash_text(text, "restarted: ", CRASH_UNDEFINED, 0x00100a0cU);
-    CHECK(strcmp(text, "restarted: undefined instruction at 00100a0c") == 0);
-    crash_text(text, "a beginning that leaves no room for the end: ", CRASH_UNDEFINED, 0x00100a0cU);
-    CHECK(strlen(text) == MAVLINK_OUT_STATUS_TEXT_CHARS);
-    crash_text(text, "", CRASH_KINDS, 1U);
-    CHECK(strcmp(text, "unknown fault at 00000001") == 0);
+    struct text text = {.length = 0U};
+    crash_append(&text, CRASH_FAST_INTERRUPT, 0xdeadbeefU);
+    CHECK(strcmp(text.chars, "fast interrupt at deadbeef") == 0);
+    text.length = 0U;
+    crash_append(&text, CRASH_KINDS, 1U);
+    CHECK(strcmp(text.chars, "unknown fault at 00000001") == 0);
+    test_case("numbers, and what does not fit");
+    text.length = 0U;
+    text_append_number(&text, 0U);
+    text_append(&text, " ");
+    text_append_number(&text, UINT32_MAX);
+    CHECK(strcmp(text.chars, "0 4294967295") == 0);
+    for (int i = 0; i < 10; i++) {
+        text_append(&text, " and more");
+    }
+    CHECK(strlen(text.chars) == MAVLINK_OUT_STATUS_TEXT_CHARS && text.length == MAVLINK_OUT_STATUS_TEXT_CHARS);
 }

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from firmware.library import AUTOPILOT, GROUND, Firmware, decode
+from firmware.library import AUTOPILOT, GROUND, ROOT, Firmware, decode
 from golden import result_writer
+from scripts.landing.model import SOURCE, load
 from sim.flight.autopilot import Autopilot
 from sim.flight.sight import objects_of
 from sim.flight.vehicle import Vehicle
@@ -44,6 +45,7 @@ class Flight:
         wind: Acceleration by gusts at a time in seconds.
         sent: What the firmware sent to the autopilot and to the ground.
         texts: STATUSTEXT to the ground with their times.
+        track: Time in s, north, east, height in m and heading in rad, each tick.
     """
 
     autopilot: Autopilot
@@ -54,7 +56,7 @@ class Flight:
     wind: Callable[[float], tuple[float, float]] = lambda _time_s: (0.0, 0.0)
     sent: dict[int, list[Sent]] = field(default_factory=lambda: {AUTOPILOT: [], GROUND: []})
     texts: list[tuple[float, str]] = field(default_factory=list)
-    track: list[tuple[float, float, float, float]] = field(default_factory=list)
+    track: list[tuple[float, float, float, float, float]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.firmware = Firmware()
@@ -68,6 +70,17 @@ class Flight:
     def time_s(self) -> float:
         """Time since power-up."""
         return self.now_us / 1e6
+
+    @property
+    def phases(self) -> list[tuple[float, str]]:
+        """When each phase began, and its name, by what was said of it."""
+        rules = load(ROOT / SOURCE).rules
+        phases = [(0.0, "STANDBY")]
+        for time_s, text in self.texts:
+            to = [r.to for r in rules if f"Touchdown: {r.reason}" == text and phases[-1][1] in r.sources]
+            if to and to[0] != phases[-1][1]:
+                phases.append((time_s, to[0]))
+        return phases
 
     @property
     def vehicle(self) -> Vehicle:
@@ -115,7 +128,8 @@ class Flight:
         self.firmware.tick(self.now_us, None if self.lidar_dead else round(1000 * lidar_m))
         self._pass_on()
         vehicle = self.vehicle
-        self.track.append((self.time_s, vehicle.north_m, vehicle.east_m, vehicle.height_m))
+        heading_rad = math.remainder(vehicle.heading_rad, math.tau)
+        self.track.append((self.time_s, vehicle.north_m, vehicle.east_m, vehicle.height_m, heading_rad))
 
     def _pose(self) -> Pose:
         vehicle = self.vehicle
