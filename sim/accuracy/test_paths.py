@@ -107,7 +107,8 @@ def test_golden_and_rtl_say_the_same_of_a_picture(index: int, tmp_path: Path) ->
     view = views(4, seed=5)[index]
     film = settled(develop(Unit("view", (shot("view", view.pose, view.look, view.seed),))))
     one, other = golden(film), rtl(film, tmp_path)
-    assert len(one.frames) == SHOWINGS_LEAST
+    # As many as it takes: two of the four are seen with another threshold factor than the usual one.
+    assert len(one.frames) >= SHOWINGS_LEAST
     assert_same(one, other)
 
 
