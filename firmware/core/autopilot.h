@@ -46,9 +46,9 @@ struct autopilot {
     uint64_t next_stream_us[AUTOPILOT_STREAMS];
 };
 
-// What to send; a command for each kind that is true.
+// A COMMAND_LONG for the autopilot.
 struct autopilot_command {
-    uint16_t command; // MAV_CMD; 0 = none
+    uint16_t command; // MAV_CMD
     float parameters[7];
 };
 

@@ -38,7 +38,7 @@ struct flight {
     uint64_t next_disarm_us;
     struct flight_log_row log[FLIGHT_LOG_ROWS];
     uint32_t logged;       // since start; the newest FLIGHT_LOG_ROWS are kept
-    uint32_t log_said;     // where a report of the log is; FLIGHT_NOTHING_TO_SAY
+    uint32_t log_said;     // next row of a report of the log; beyond `logged`, none is under way
     uint32_t params_said;  // the same for the list of parameters
     uint64_t next_said_us;
 };

@@ -138,6 +138,10 @@ void ground_tick(struct flight *flight, struct links *links, uint64_t now_us)
     } else if (flight->log_said < flight->logged) {
         say_row(links, &flight->log[flight->log_said % FLIGHT_LOG_ROWS]);
         flight->log_said++;
+        // What is logged later is not part of this report.
+        if (flight->log_said == flight->logged) {
+            flight->log_said = NOTHING_TO_SAY;
+        }
     } else {
         return;
     }

@@ -12,6 +12,8 @@
 // Farther off than this it does not go down; twice "centred", so that a gust does not stop it.
 #define DESCENT_CONE 2.0
 #define CLIMB_M_S 0.4
+// Aimed at a little lower, or it would come near the height and never be there.
+#define BELOW_ALIGN_M 0.05
 #define HEIGHT_GAIN_PER_S 0.8
 // The square that it flies while it searches: each second side is longer by this.
 #define SEARCH_SIDE_M 0.8
@@ -114,7 +116,7 @@ struct mavlink_out_velocity steering_velocity(enum landing_steer steer, const st
         const double off_m = hypot(view->pad.forward_m, view->pad.right_m);
 
         if (off_m <= DESCENT_CONE * steering_centred_m(view->pad.down_m)) {
-            velocity.down_m_s = towards_height_m_s(view, (double)parameters->align_height_m - 0.05,
+            velocity.down_m_s = towards_height_m_s(view, (double)parameters->align_height_m - BELOW_ALIGN_M,
                                                    (double)parameters->descent_m_s);
         }
     }

@@ -3,7 +3,7 @@
 
 import html
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from scripts.report_chart import round_scale, tick_text
 
@@ -58,7 +58,9 @@ def landing_svg(
     return "\n".join(parts) + "\n"
 
 
-def _panel(name: str, times: Sequence[float], values: Sequence[float], top: float, across) -> list[str]:  # noqa: ANN001
+def _panel(
+    name: str, times: Sequence[float], values: Sequence[float], top: float, across: Callable[[float], float]
+) -> list[str]:
     low, high, step = round_scale(min(values), max(values))
 
     def down(value: float) -> float:

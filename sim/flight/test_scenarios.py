@@ -412,6 +412,10 @@ def test_log_of_phases_is_said_when_asked_for() -> None:
         "CENTRE>GIVE_UP: aborted",
         "GIVE_UP>STANDBY: handed back to the autopilot",
     ]
+    seen = len(flight.texts)
+    flight.command(LAND)
+    flight.run(flight.time_s + 0.2)
+    assert [text for _, text in flight.texts[seen:]] == ["Touchdown: start"]
 
 
 def test_parameters_as_a_ground_station_sees_them() -> None:
