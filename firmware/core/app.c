@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bounds.h"
 #include "crash.h"
 #include "pad_geometry.h"
 
@@ -11,6 +12,8 @@
 #define DISTANCE_PERIOD_US 50000U
 #define CAMERA_LOST_US 2000000U
 #define COMPLAINT_PERIOD_US 10000000U
+// A few frames: longer ago the pad may be anywhere.
+#define LAST_VIEW_US 100000U
 #define PAD_ARRAY_ID 1U
 #define HEALTH_ARRAY_ID 2U
 
@@ -136,7 +139,7 @@ struct area_limits {
 
 static uint32_t limited_area_px(double area_px)
 {
-    return (uint32_t)fmin(fmax(area_px, (double)MIN_AREA_LEAST_PX), (double)MIN_AREA_GREATEST_PX);
+    return (uint32_t)at_most(at_least(area_px, (double)MIN_AREA_LEAST_PX), (double)MIN_AREA_GREATEST_PX);
 }
 
 // The least and greatest MIN_AREA that make sense at a height: close to the ground
@@ -147,7 +150,7 @@ static struct area_limits area_limits_of(const struct lidar_reading *lidar, cons
     struct area_limits limits = {.least_px = MIN_AREA_LEAST_PX, .greatest_px = MIN_AREA_GREATEST_PX};
 
     if (fusion_lidar_usable(lidar)) {
-        const double side_px = SQUARE_SIDE_MM * camera->focal_px / fmax((double)lidar->distance_mm, 1.0);
+        const double side_px = SQUARE_SIDE_MM * camera->focal_px / at_least((double)lidar->distance_mm, 1.0);
         limits.least_px = limited_area_px(SQUARE_SHARE_LEAST * side_px * side_px);
         limits.greatest_px = limited_area_px(SQUARE_SHARE_GREATEST * side_px * side_px);
     }
@@ -226,6 +229,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     app->factor_before = record->header.threshold_factor;
     hint.searching = !factor_search_is_usual(factor);
     attitude_tilt(&app->attitude, now_us, &hint.tilt);
+    if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
+        record->header.start_time_us - app->last_view_us <= LAST_VIEW_US) {
+        hint.last = &app->last_view;
+    }
     const bool seen = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
     const enum track_result track =
         (app->detect_options & DETECT_TRACK) != 0U
@@ -234,6 +241,11 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
                    : TRACK_NONE;
     const bool found = track != TRACK_NONE;
 
+    if (track == TRACK_MEASURED) {
+        app->has_last_view = true;
+        app->last_view = pad.view;
+        app->last_view_us = record->header.start_time_us;
+    }
     if ((app->detect_options & DETECT_FACTORS) != 0U) {
         factor_search_update(&app->factor_search, seen, factor);
     }

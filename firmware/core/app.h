@@ -85,6 +85,9 @@ struct app {
     uint64_t next_complaint_us[APP_COMPLAINTS];
     struct attitude attitude;
     struct tracker tracker;
+    struct pad_view last_view; // of the newest pad that was seen
+    uint64_t last_view_us;     // start of its frame
+    bool has_last_view;
     bool camera_lost;
     bool lidar_worked; // since power-up
     uint32_t min_area_px;

@@ -35,7 +35,7 @@
 #define LINE_SIGMA_RING 0.001 // of the ring's diameter
 
 const struct detect_hint detect_no_hint = {
-    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false};
+    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL};
 
 // By rising area (Shell): bounded, in place.
 static void sort_solids(struct detect_scratch *scratch)
@@ -269,6 +269,16 @@ static int try_all(const struct detect_context *context, const struct hypotheses
     return result;
 }
 
+// From frame to frame the pad moves less than what the fit bridges; searching costs several times as much.
+static bool still_there(const struct detect_context *context, struct pad_estimate *pad)
+{
+    if (context->hint->last == NULL) {
+        return false;
+    }
+    const struct hypothesis hypothesis = {.view = *context->hint->last, .fused = false, .error = 0.0};
+    return try_view(context, &hypothesis, pad) == 0 && pad->doubt < DOUBT_NONE;
+}
+
 int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,
                uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad)
 {
@@ -282,6 +292,9 @@ int detect_pad(const struct landing_record *record, const struct camera *camera,
         .options = options,
         .crowded = record->header.objects_dropped != 0U || scratch->count >= CROWD,
     };
+    if (still_there(&context, pad)) {
+        return 0;
+    }
     hypotheses_from_pairs(scratch, camera, hint->height_m, options, &hypotheses);
     if (try_all(&context, &hypotheses, pad) == 0) {
         return 0;

@@ -55,6 +55,7 @@ struct detect_hint {
     struct tilt_hint tilt; // how the plane is expected to lie
     double height_m;       // of the camera, along its axis, as the LiDAR says; 0 = not known
     bool searching;        // the thresholds have not the usual factor: most of what is seen is clutter
+    const struct pad_view *last; // of the pad a moment ago, or NULL: tried first, and if it leaves no doubt, alone
 };
 
 // Level ground, roughly, and no altitude.

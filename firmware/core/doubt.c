@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "bounds.h"
+
 #define METRES_PER_MM 0.001
 
 // Weights of what is missing or does not belong, beside the misfit.
@@ -106,9 +108,9 @@ static double pieces_doubt_max(const struct detect_context *context, const struc
 double doubt_of(const struct detect_context *context, const struct reading *reading, const struct pad_view *view,
                 double misfit, double worst)
 {
-    const double tilt = fmax(fabs(view->value[PAD_TILT_X]), fabs(view->value[PAD_TILT_Y]));
-    const double share = fmin(reading->ring_share, 1.0);
-    const double missing = fmin(1.0, 2.0 * reading->ring_inside) * (1.0 - share);
+    const double tilt = at_least(fabs(view->value[PAD_TILT_X]), fabs(view->value[PAD_TILT_Y]));
+    const double share = at_most(reading->ring_share, 1.0);
+    const double missing = at_most(2.0 * reading->ring_inside, 1.0) * (1.0 - share);
     const bool small_ring =
         reading_has(reading, PAD_SMALL_RING) &&
         reading_of(reading, PAD_SMALL_RING)->seen.area_px >= NO_RING_SMALL_RING_AREA_MIN_PX;
@@ -134,9 +136,9 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     }
     // Pieces of a ring that is thin all round, or among clutter, are found anywhere.
     const bool clutter = context->hint->searching || context->crowded;
-    const double thin = clutter || reading->ring_thin > EXCUSED_THIN_MAX ? 0.0 : fmin(reading->ring_thin, EXCUSED_MAX);
-    const double excused = fmax(1.0 - RING_SHARE_WHOLE, thin);
-    const double broken = DOUBT_RING * fmax(0.0, missing - excused);
+    const double thin = clutter || reading->ring_thin > EXCUSED_THIN_MAX ? 0.0 : at_most(reading->ring_thin, EXCUSED_MAX);
+    const double excused = at_least(thin, 1.0 - RING_SHARE_WHOLE);
+    const double broken = DOUBT_RING * at_least(missing - excused, 0.0);
     // Two of three that do not depend on each other, one of them the pair or half of it.
     if (pair && small_ring) {
         // Small shapes inside a wrong ring are a pad seen from higher up, but for the LiDAR.

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "bounds.h"
 #include "pad_geometry.h"
 
 #define PI 3.14159265358979323846
@@ -152,7 +153,7 @@ static bool affine_of_pair(const struct shape *square, const struct shape *recta
     const double trace = xx + yy;
     // Direction of the greater variance.
     const double angle = 0.5 * atan2(2.0 * xy, xx - yy);
-    const double length = sqrt(fmax(trace, 0.0) / RECTANGLE_VARIANCE_ACROSS);
+    const double length = sqrt(at_least(trace, 0.0) / RECTANGLE_VARIANCE_ACROSS);
 
     affine->down = down;
     affine->across.x = length * cos(angle);
@@ -232,7 +233,7 @@ static double height_of(const struct camera *camera, const struct pad_view *view
     if (camera_direction(camera, view->value[PAD_X_PX], view->value[PAD_Y_PX], direction) != 0) {
         return 0.0;
     }
-    return 0.001 * exp(view->value[PAD_LOG_DISTANCE_MM]) * fmax(direction[2], 0.0);
+    return 0.001 * exp(view->value[PAD_LOG_DISTANCE_MM]) * at_least(direction[2], 0.0);
 }
 
 // True where the ring may be too thin to be seen and the LiDAR says the same of the distance.
@@ -247,11 +248,6 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
                           struct hypotheses *found)
 {
     const struct vector line = shape_offset(rectangle, square);
-    // No variance exceeds the sum of both: most pairs are far apart and end here.
-    if (line.x * line.x + line.y * line.y >
-        baseline_to_rectangle.greatest * baseline_to_rectangle.greatest * (rectangle->cov_xx + rectangle->cov_yy)) {
-        return;
-    }
     const double squared = shape_inner(rectangle, line, line);
     struct hypothesis hypothesis = {.fused = false};
     struct affine affine;
@@ -279,11 +275,11 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
                        deviation(sqrt(squared), BASELINE / sqrt(RECTANGLE_VARIANCE)) +
                        deviation(variance, SQUARE_SIDE_MM * SQUARE_SIDE_MM / 12.0 / RECTANGLE_VARIANCE) +
                        deviation(square->invariant, SHAPE_INVARIANT_RECTANGLE) +
-                       deviation(rectangle->invariant, SHAPE_INVARIANT_RECTANGLE) + fmax(0.0, 0.7 - around.ring_share) +
+                       deviation(rectangle->invariant, SHAPE_INVARIANT_RECTANGLE) + at_least(0.7 - around.ring_share, 0.0) +
                        PIECE_ERROR * around.pieces + around.clutter;
     if (height_m > 0.0) {
         // Tilt and a beam that meets something else make it differ; more than that does not make it worse.
-        hypothesis.error += fmin(deviation(seen_m, height_m), HEIGHT_ERROR_MAX);
+        hypothesis.error += at_most(deviation(seen_m, height_m), HEIGHT_ERROR_MAX);
     }
     keep(found, &hypothesis);
 }
@@ -298,6 +294,9 @@ void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct ca
         const struct shape *rectangle = &scratch->candidates[scratch->solids[i]].shape;
         const double least = square_to_rectangle_area.least * rectangle->area_px;
         const double greatest = square_to_rectangle_area.greatest * rectangle->area_px;
+        // No variance exceeds the sum of both: most pairs are far apart and end here.
+        const double reach = baseline_to_rectangle.greatest * baseline_to_rectangle.greatest *
+                             (rectangle->cov_xx + rectangle->cov_yy);
         while (first < i && scratch->candidates[scratch->solids[first]].shape.area_px < least) {
             first++;
         }
@@ -305,6 +304,11 @@ void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct ca
             const struct shape *square = &scratch->candidates[scratch->solids[j]].shape;
             if (square->area_px > greatest) {
                 break;
+            }
+            const double x = square->x_px - rectangle->x_px;
+            const double y = square->y_px - rectangle->y_px;
+            if (x * x + y * y > reach) {
+                continue;
             }
             consider_pair(scratch, camera, height_m, options, square, rectangle, found);
         }

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "bounds.h"
+
 #define STEPS 16
 #define RESIDUALS_A_SIGHTING 6
 #define RESIDUALS (RESIDUALS_A_SIGHTING * PAD_FIT_SIGHTINGS)
@@ -73,11 +75,11 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
 
     if (ring) {
         // Bloom that eats the ring eats more of it on the brighter side.
-        sigma += RING_SIGMA_EDGE * fabs(edge_px) + RING_SIGMA_THIN * fmax(0.0, RING_THIN_PX - width_px);
+        sigma += RING_SIGMA_EDGE * fabs(edge_px) + RING_SIGMA_THIN * at_least(RING_THIN_PX - width_px, 0.0);
     }
     if (sighting->kinds == PAD_SMALL_RING) {
         const double blur = SMALL_RING_PRECISE_AREA_PX / seen->area_px;
-        sigma += fmin(blur * blur, SMALL_RING_SIGMA_MAX_PX);
+        sigma += at_most(blur * blur, SMALL_RING_SIGMA_MAX_PX);
     }
     if (sighting->clipped) {
         sigma += CLIPPED_SIGMA_PX + CLIPPED_SIGMA_SIZE * spread;
@@ -88,7 +90,7 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     // Whatever moves edges moves all of them alike.
     const bool box = sighting->kinds == PAD_SQUARE || sighting->kinds == PAD_RECTANGLE;
     const double lost = box && !sighting->clipped ? CORNERS_LOST_PX : 0.0;
-    const double area = fmax(expected->area_px + edge_px * edges_px - lost, 1.0);
+    const double area = at_least(expected->area_px + edge_px * edges_px - lost, 1.0);
     const double edge_sigma_px = sighting->kinds == PAD_SMALL_RING ? SMALL_RING_EDGE_SIGMA_PX : EDGE_SIGMA_PX;
     const double area_sigma = edge_sigma_px * edges_px + AREA_SIGMA * area;
     add(terms, sqrt(seen->area_px) - sqrt(area), doubt * area_sigma / (2.0 * sqrt(area)));
@@ -101,13 +103,13 @@ static void compare(struct terms *terms, const struct sighting *sighting, const 
     double yy = expected->cov_yy;
     if (box) {
         // What the corners lose lies at sqrt(3) standard deviations along both sides, less its own size.
-        const double near = fmax(1.0 - CORNER_SIZE_PX / sqrt(expected->area_px), 0.0);
-        const double keep = fmax(1.0 - lost * (3.0 * near * near - 1.0) / area, 0.1);
+        const double near = at_least(1.0 - CORNER_SIZE_PX / sqrt(expected->area_px), 0.0);
+        const double keep = at_least(1.0 - lost * (3.0 * near * near - 1.0) / area, 0.1);
         xx *= keep;
         xy *= keep;
         yy *= keep;
         // (C^1/2 + m)^2 is nearly C + 2 m C^1/2
-        const double root = sqrt(fmax(xx * yy - xy * xy, 0.0));
+        const double root = sqrt(at_least(xx * yy - xy * xy, 0.0));
         const double move = 2.0 * SPREAD_OF_EDGE * edge_px / sqrt(xx + yy + 2.0 * root);
         xx += move * (expected->cov_xx + root);
         yy += move * (expected->cov_yy + root);
@@ -135,7 +137,7 @@ static int expect(const struct pad_evidence *evidence, const struct camera *came
     if (pad_plane_of(view, camera, &plane) != 0) {
         return PAD_FIT_E_LOST;
     }
-    expectation->facing = fmax(pad_plane_facing(&plane), FACING_MIN);
+    expectation->facing = at_least(pad_plane_facing(&plane), FACING_MIN);
     for (int i = 0; i < evidence->count; i++) {
         const struct sighting *sighting = &evidence->sightings[i];
         struct shape *shape = &expectation->shapes[i];
@@ -301,10 +303,10 @@ int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, co
         }
     }
     // The priors stand for as many observations as there are parameters less four.
-    *misfit = cost / fmax(terms.count - 4, 1);
+    *misfit = cost / (terms.count > 5 ? terms.count - 4 : 1);
     *worst = 0.0;
     for (int i = 0; i < terms.count; i++) {
-        *worst = fmax(*worst, fabs(terms.residual[i]));
+        *worst = at_least(fabs(terms.residual[i]), *worst);
     }
     return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "bounds.h"
 #include "pad_geometry.h"
 
 #define PI 3.14159265358979323846
@@ -133,10 +134,10 @@ struct sums {
 // Share of a small square of this size that lies inside the frame.
 static double share_inside(const struct camera *camera, double x_px, double y_px, double size_px)
 {
-    const double across = fmin(x_px + 0.5, camera->width_px - 0.5 - x_px);
-    const double down = fmin(y_px + 0.5, camera->height_px - 0.5 - y_px);
+    const double across = at_most(x_px + 0.5, camera->width_px - 0.5 - x_px);
+    const double down = at_most(y_px + 0.5, camera->height_px - 0.5 - y_px);
 
-    return fmin(1.0, fmax(0.0, 0.5 + fmin(across, down) / size_px));
+    return at_most(at_least(0.5 + at_most(across, down) / size_px, 0.0), 1.0);
 }
 
 static void add_point(struct sums *sums, double x_mm, double y_mm, double area_mm2)
@@ -179,26 +180,45 @@ static void add_box(struct sums *sums, const struct box *box)
     }
 }
 
-// Cosine of multiples of 10 degrees.
-static double cosine(int tens)
-{
-    static const double quarter[] = {1.0,
-                                     0.984807753012208,
-                                     0.9396926207859084,
-                                     0.8660254037844387,
-                                     0.766044443118978,
-                                     0.6427876096865394,
-                                     0.5,
-                                     0.3420201433256688,
-                                     0.17364817766693033,
-                                     0.0};
-    const int turn = tens % 36;
-
-    return turn <= 9    ? quarter[turn]
-           : turn <= 18 ? -quarter[18 - turn]
-           : turn <= 27 ? -quarter[turn - 18]
-                        : quarter[36 - turn];
-}
+// Cosine and sine of multiples of 10 degrees.
+static const double circle[36][2] = {
+    {1.0, 0.0},
+    {0.984807753012208, 0.17364817766693033},
+    {0.9396926207859084, 0.3420201433256688},
+    {0.8660254037844387, 0.5},
+    {0.766044443118978, 0.6427876096865394},
+    {0.6427876096865394, 0.766044443118978},
+    {0.5, 0.8660254037844387},
+    {0.3420201433256688, 0.9396926207859084},
+    {0.17364817766693033, 0.984807753012208},
+    {0.0, 1.0},
+    {-0.17364817766693033, 0.984807753012208},
+    {-0.3420201433256688, 0.9396926207859084},
+    {-0.5, 0.8660254037844387},
+    {-0.6427876096865394, 0.766044443118978},
+    {-0.766044443118978, 0.6427876096865394},
+    {-0.8660254037844387, 0.5},
+    {-0.9396926207859084, 0.3420201433256688},
+    {-0.984807753012208, 0.17364817766693033},
+    {-1.0, 0.0},
+    {-0.984807753012208, -0.17364817766693033},
+    {-0.9396926207859084, -0.3420201433256688},
+    {-0.8660254037844387, -0.5},
+    {-0.766044443118978, -0.6427876096865394},
+    {-0.6427876096865394, -0.766044443118978},
+    {-0.5, -0.8660254037844387},
+    {-0.3420201433256688, -0.9396926207859084},
+    {-0.17364817766693033, -0.984807753012208},
+    {0.0, -1.0},
+    {0.17364817766693033, -0.984807753012208},
+    {0.3420201433256688, -0.9396926207859084},
+    {0.5, -0.8660254037844387},
+    {0.6427876096865394, -0.766044443118978},
+    {0.766044443118978, -0.6427876096865394},
+    {0.8660254037844387, -0.5},
+    {0.9396926207859084, -0.3420201433256688},
+    {0.984807753012208, -0.17364817766693033},
+};
 
 static void add_annulus(struct sums *sums, const struct annulus *annulus)
 {
@@ -212,7 +232,7 @@ static void add_annulus(struct sums *sums, const struct annulus *annulus)
         // Rings of equal area; the one radius has the right second moments.
         const double radius = sqrt(inner + (outer - inner) * (i + 0.5) / radii);
         for (int tens = 0; tens < 36; tens += step) {
-            add_point(sums, radius * cosine(tens), radius * cosine(tens + 27), area);
+            add_point(sums, radius * circle[tens][0], radius * circle[tens][1], area);
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "bounds.h"
 #include "pad_geometry.h"
 
 // A shape smaller than this has edges that are as large as itself.
@@ -124,7 +125,7 @@ static void match(const struct detect_context *context, const struct pad_plane *
     if (!whole && (context->options & DETECT_CLOSE) == 0U) {
         return;
     }
-    const double area_px = fmax(expected.area_px + edge_px * pad_edges_px(kind, &expected, inside), AREA_MIN_PX);
+    const double area_px = at_least(expected.area_px + edge_px * pad_edges_px(kind, &expected, inside), AREA_MIN_PX);
     const double ratio = kind == PAD_SMALL_RING ? MATCH_SMALL_RING_RATIO : MATCH_AREA_RATIO;
     const double reachable = MATCH_DISTANCE_PX + MATCH_DISTANCE_SIZE * sqrt(expected.area_px);
     for (int i = 0; i < context->scratch->count; i++) {
@@ -227,11 +228,11 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
         return;
     }
     const double edges_px = pad_edges_px(PAD_RING, &expected, inside);
-    const double area_px = fmax(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
+    const double area_px = at_least(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
     reading->ring_width_px = 2.0 * area_px / edges_px;
     reading->ring_thin = thin_share(&expected, reading->ring_width_px);
     // The disc, in any direction, from wherever the border has moved the centroid to.
-    const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / fmax(inside, 0.3);
+    const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / at_least(inside, 0.3);
     for (int i = 0; i < context->scratch->count; i++) {
         const struct candidate *candidate = &context->scratch->candidates[i];
         const struct shape *shape = &candidate->shape;

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "bounds.h"
 #include "pad_geometry.h"
 
 #define RAD_PER_DEG 0.017453292519943295
@@ -22,7 +23,7 @@
 
 static double limited(double value, double limit)
 {
-    return fmin(fmax(value, -limit), limit);
+    return at_most(at_least(value, -limit), limit);
 }
 
 struct level_pad steering_level(double roll_rad, double pitch_rad, double right_m, double forward_m, double depth_m,
@@ -69,7 +70,7 @@ static double towards_height_m_s(const struct steering_view *view, double wanted
 {
     const double down_m_s = HEIGHT_GAIN_PER_S * (view->height_m - wanted_m);
 
-    return view->height_known ? fmin(fmax(down_m_s, -CLIMB_M_S), most_down_m_s) : 0.0;
+    return view->height_known ? at_most(at_least(down_m_s, -CLIMB_M_S), most_down_m_s) : 0.0;
 }
 
 // Ahead, right, back, left, with growing sides: where the pad may have gone out of sight is not known.

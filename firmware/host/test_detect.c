@@ -363,8 +363,39 @@ static void test_no_ring_and_another_height(void)
     CHECK(find_with(&hint));
 }
 
+// Where the pad was is where the fit starts, never what it ends with.
+static void test_last_view(void)
+{
+    const struct scene before = {.height_m = 1.0, .right_m = 0.1, .heading_deg = 30.0};
+    const struct scene now = {.height_m = 0.99, .right_m = 0.115, .forward_m = 0.01, .heading_deg = 31.5};
+    const struct scene elsewhere = {.height_m = 1.6, .right_m = -0.3, .forward_m = 0.2, .heading_deg = 200.0};
+    const struct pad_view moved = scene_view(&before);
+    const struct pad_view wrong = scene_view(&elsewhere);
+    struct detect_hint hint = detect_no_hint;
+
+    test_case("a pad that has moved a little is the same with and without its last view");
+    CHECK(find_pad(&now));
+    const struct pad_estimate searched = pad;
+    hint.last = &moved;
+    CHECK(find_with(&hint));
+    NEAR(pad.x_px, searched.x_px, 0.01);
+    NEAR(pad.y_px, searched.y_px, 0.01);
+    NEAR(pad.angle_deg, searched.angle_deg, 0.02);
+    NEAR(pad.height_m, searched.height_m, 0.001);
+
+    test_case("a last view that is of somewhere else hides nothing and makes nothing up");
+    hint.last = &wrong;
+    CHECK(find_with(&hint));
+    NEAR(pad.x_px, searched.x_px, 0.01);
+    NEAR(pad.angle_deg, searched.angle_deg, 0.02);
+    scene_clear(&record);
+    hint.last = &moved;
+    CHECK(!find_with(&hint));
+}
+
 void test_detect(void)
 {
+    test_last_view();
     test_clutter_needs_more();
     test_pair_at_the_border();
     test_thin_ring();
