@@ -13,6 +13,7 @@ from tb.common.cores import load_core
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "cosim"
 PLUGIN = BUILD / "touchdown-plugin.so"
+FLIGHT_PLUGIN = BUILD / "touchdown-flight-plugin.so"
 HOST = BUILD / "touchdown-host"
 STAGES = BUILD / "landing-stages"
 ELF = ROOT / "build" / "firmware" / "touchdown.elf"
@@ -78,6 +79,12 @@ def build_plugin() -> Path:
     """The QEMU plugin with landing_core inside."""
     _build("plugin")
     return PLUGIN
+
+
+def build_flight_plugin() -> Path:
+    """The QEMU plugin of a flight: landing_core fed with shapes instead of pixels."""
+    _build("flight-plugin")
+    return FLIGHT_PLUGIN
 
 
 def build_host() -> Path:

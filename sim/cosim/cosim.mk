@@ -4,45 +4,68 @@
 
 BUILD := build/cosim
 MODEL := $(BUILD)/model
+# landing_core with the stand-ins of the stages from camera to objects.
+FLIGHT_MODEL := $(BUILD)/flight-model
+STAND_INS := $(wildcard sim/verilated/stand_ins/*.v)
+STOOD_IN_FOR := $(patsubst sim/verilated/stand_ins/%,\%/%,$(STAND_INS))
+FLIGHT_RTL = $(STAND_INS) $(filter-out $(STOOD_IN_FOR),$(RTL))
 VERILATOR_ROOT := $(shell verilator --getenv VERILATOR_ROOT)
 
 CXX := $(if $(shell command -v ccache),ccache )g++
-CXXFLAGS := -std=c++17 -O2 -fPIC -Wall -Wextra -Werror -Wno-pedantic -I. -isystem $(MODEL) -Isim/verilated \
+CXXFLAGS := -std=c++17 -O2 -fPIC -Wall -Wextra -Werror -Wno-pedantic -I. -Isim/verilated \
             -isystem $(VERILATOR_ROOT)/include -isystem $(VERILATOR_ROOT)/include/vltstd -MMD -MP
+VERILATE := verilator --cc --quiet-stats -O3 --x-assign fast --x-initial fast --no-assert --no-timing \
+            --language 1364-2005 -CFLAGS -fPIC -Irtl/generated --prefix Vlanding_core --top-module landing_core
 LDLIBS := -lpthread
 
 SHARED := frame_list video_source axi_memory stage_taps landing_model
 SHARED_OBJECTS := $(SHARED:%=$(BUILD)/obj/%.o)
+FLIGHT_OBJECTS := $(addprefix $(BUILD)/flight-obj/,qemu_flight.o qemu_machine.o run_log.o axi_memory.o landing_model.o)
 FIRMWARE_LIBRARY := build/firmware/libtouchdown.a
 MODEL_LIBS := $(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a
 
 # verilator itself sees to it that unchanged sources change nothing.
-.PHONY: plugin host stages
+.PHONY: plugin flight-plugin host stages
 plugin: $(BUILD)/touchdown-plugin.so
+flight-plugin: $(BUILD)/touchdown-flight-plugin.so
 host: $(BUILD)/touchdown-host
 stages: $(BUILD)/landing-stages
 
 $(MODEL)/Vlanding_core.mk: $(RTL) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wildcard rtl/generated/*.vh)
 	@mkdir -p $(@D)
-	verilator --cc --quiet-stats -O3 --x-assign fast --x-initial fast --no-assert --no-timing --language 1364-2005 \
-	    -CFLAGS -fPIC -Irtl/generated --Mdir $(MODEL) --prefix Vlanding_core --top-module landing_core \
-	    sim/verilated/taps.vlt $(RTL)
+	$(VERILATE) --Mdir $(MODEL) sim/verilated/taps.vlt $(RTL)
 	@touch $@
 
-$(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a &: $(MODEL)/Vlanding_core.mk
-	+$(MAKE) -C $(MODEL) -f Vlanding_core.mk OPT_FAST=-O3 OPT_GLOBAL=-O2 $(if $(shell command -v ccache),OBJCACHE=ccache) \
+$(FLIGHT_MODEL)/Vlanding_core.mk: $(RTL) $(STAND_INS) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wildcard rtl/generated/*.vh)
+	@mkdir -p $(@D)
+	$(VERILATE) --Mdir $(FLIGHT_MODEL) -GCLK_PER_US=2 sim/verilated/taps.vlt $(FLIGHT_RTL)
+	@touch $@
+
+%/libVlanding_core.a %/libverilated.a: %/Vlanding_core.mk
+	+$(MAKE) -C $* -f Vlanding_core.mk OPT_FAST=-O3 OPT_GLOBAL=-O2 $(if $(shell command -v ccache),OBJCACHE=ccache) \
 	    libVlanding_core.a libverilated.a
-	@touch $(MODEL_LIBS)
+	@touch $*/libVlanding_core.a $*/libverilated.a
 
 $(BUILD)/obj/%.o: sim/verilated/%.cpp $(MODEL)/Vlanding_core.mk
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) -c -o $@ $<
+	$(CXX) $(CXXFLAGS) -isystem $(MODEL) -c -o $@ $<
 
 $(BUILD)/obj/%.o: sim/cosim/%.cpp $(MODEL)/Vlanding_core.mk
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) -c -o $@ $<
+	$(CXX) $(CXXFLAGS) -isystem $(MODEL) -c -o $@ $<
 
-$(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_plugin.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
+$(BUILD)/flight-obj/%.o: sim/verilated/%.cpp $(FLIGHT_MODEL)/Vlanding_core.mk
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -isystem $(FLIGHT_MODEL) -c -o $@ $<
+
+$(BUILD)/flight-obj/%.o: sim/cosim/%.cpp $(FLIGHT_MODEL)/Vlanding_core.mk
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -isystem $(FLIGHT_MODEL) -c -o $@ $<
+
+$(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_frames.o $(BUILD)/obj/qemu_machine.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
+	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
+
+$(BUILD)/touchdown-flight-plugin.so: $(FLIGHT_OBJECTS) $(FLIGHT_MODEL)/libVlanding_core.a $(FLIGHT_MODEL)/libverilated.a
 	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
 
 # firmware/Makefile knows whether its library is up to date.
@@ -58,4 +81,4 @@ $(BUILD)/touchdown-host: $(BUILD)/obj/host_main.o $(BUILD)/obj/run_log.o $(SHARE
 $(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -o $@ $^ $(LDLIBS)
 
--include $(wildcard $(BUILD)/obj/*.d)
+-include $(wildcard $(BUILD)/obj/*.d $(BUILD)/flight-obj/*.d)

@@ -12,6 +12,7 @@
 #include "sim/verilated/landing_layout.h"
 #include "sim/verilated/landing_model.h"
 #include "sim/verilated/ram_board.h"
+#include "sim/verilated/video_source.h"
 
 extern "C" {
 #include "firmware/board/board.h"
@@ -31,8 +32,9 @@ public:
     explicit Host(const Arguments& arguments)
         : log_(arguments.text("out")),
           frames_(arguments.text("frames")),
+          video_(frames_, timing(arguments)),
           board_(log_),
-          model_(config(arguments), frames_, board_),
+          model_(ModelConfig(), video_, board_),
           tail_ns_(arguments.number("tail-us") * 1000) {}
 
     void run() {
@@ -42,7 +44,7 @@ public:
         configure();
         uint64_t time_ns = model_.now_ns();
         uint64_t next_tick_ns = time_ns;
-        while (!model_.frames_finished() || time_ns < board_.last_pixel_ns() + tail_ns_) {
+        while (!video_.finished() || time_ns < board_.last_pixel_ns() + tail_ns_) {
             time_ns += QUANTUM_NS;
             model_.advance_to(time_ns);
             if (model_.irq()) take_record();
@@ -55,10 +57,10 @@ public:
     }
 
 private:
-    static ModelConfig config(const Arguments& arguments) {
-        ModelConfig config;
-        config.video.frame_clocks = arguments.number("frame-clocks");
-        return config;
+    static VideoTiming timing(const Arguments& arguments) {
+        VideoTiming timing;
+        timing.frame_clocks = arguments.number("frame-clocks");
+        return timing;
     }
 
     uint64_t now_us() {
@@ -114,6 +116,7 @@ private:
 
     RunLog log_;
     FrameList frames_;
+    VideoSource video_;
     RamBoard board_;
     LandingModel model_;
     UartWire wires_[2];

@@ -29,16 +29,19 @@ def find_qemu() -> str:
     return path
 
 
-def qemu_command(qemu: str, elf: Path, plugin: Path, arguments: dict[str, object], out_dir: Path) -> list[str]:
-    """Command line that runs `elf` on the Zynq with the plugin; UARTs go to files in `out_dir`.
+def qemu_command(
+    qemu: str, elf: Path, plugin: Path, arguments: dict[str, object], out_dir: Path, *, log_uarts: bool = True
+) -> list[str]:
+    """Command line that runs `elf` on the Zynq with the plugin; UARTs go to files in `out_dir`, or to the plugin alone.
 
     `-icount shift=1,sleep=off` makes an instruction 2 ns and skips time in which the CPU sleeps; `-S` lets the plugin
     map its registers before the first instruction.
     """
+    uarts = [f"file:{out_dir / name}" if log_uarts else "null" for name in ("uart0.bin", "uart1.bin")]
     options = "".join(f",{key}={value}" for key, value in arguments.items())
     return [
         *(qemu, "-M", "xilinx-zynq-a9", "-m", "512M", "-icount", "shift=1,sleep=off", "-S"),
         *("-display", "none", "-nodefaults", "-monitor", "none"),
-        *("-serial", f"file:{out_dir / 'uart0.bin'}", "-serial", f"file:{out_dir / 'uart1.bin'}"),
+        *("-serial", uarts[0], "-serial", uarts[1]),
         *("-kernel", str(elf), "-plugin", f"file={plugin}{options}"),
     ]

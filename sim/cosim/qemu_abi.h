@@ -90,6 +90,10 @@ void* object_resolve_path_type(const char* path, const char* type, bool* ambiguo
 void* qdev_get_gpio_in(void* device, int number);
 void qemu_set_irq(void* irq, int level);
 
+void* qemu_chr_find(const char* name);
+int qemu_chr_be_can_write(void* chardev);
+void qemu_chr_be_write(void* chardev, const uint8_t* bytes, int count);
+
 int64_t qemu_clock_get_ns(int clock);
 void timer_init_full(qemu::Timer* timer, void* group, int clock, int scale, int attributes, void (*callback)(void*),
                      void* opaque);

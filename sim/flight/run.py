@@ -13,6 +13,7 @@ from pathlib import Path
 from firmware.library import make
 from scripts.errors import ArgumentParser, UserError, run_main
 from sim.flight.autopilot import ARDUPILOT, PX4, Autopilot
+from sim.flight.board import HostBoard
 from sim.flight.picture import landing_svg
 from sim.flight.scenario import Flight
 from sim.flight.vehicle import Vehicle
@@ -40,7 +41,7 @@ def fly(profile: str, gusts_m_s2: float, seed: int) -> Flight:
         heading_rad=chance.uniform(-math.pi, math.pi),
     )
     gusts = [(chance.gauss(0, gusts_m_s2), chance.gauss(0, gusts_m_s2)) for _ in range(int(_LIMIT_S / _GUST_S) + 1)]
-    flight = Flight(Autopilot(profile, vehicle), wind=lambda time_s: gusts[int(time_s / _GUST_S)])
+    flight = Flight(Autopilot(profile, vehicle), HostBoard(), wind=lambda time_s: gusts[int(time_s / _GUST_S)])
     flight.run(_START_S)
     flight.switch(True)
     flight.run(_LIMIT_S - 1, lambda flying: not flying.autopilot.armed)

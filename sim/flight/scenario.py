@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One flight: firmware, autopilot, vehicle and pad in a loop, with events on the way."""
+"""One flight: board, autopilot, vehicle and pad in a loop, with events on the way."""
 
 import math
 from collections.abc import Callable
@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from firmware.library import AUTOPILOT, GROUND, ROOT, Firmware, decode
-from golden import result_writer
+from firmware.library import AUTOPILOT, GROUND, ROOT
 from scripts.landing.model import SOURCE, load
 from sim.flight.autopilot import Autopilot
+from sim.flight.board import Board, Listener
 from sim.flight.sight import objects_of
 from sim.flight.vehicle import Vehicle
 from sim.world.camera import Camera
@@ -18,7 +18,6 @@ from sim.world.pose import Pose, camera_from_level
 
 TICK_US = 5_000
 FRAME_US = 33_333
-_SIZE = (1280, 720)
 
 
 @dataclass
@@ -38,33 +37,37 @@ class Flight:
 
     Attributes:
         autopilot: With its vehicle.
+        board: With the firmware.
         pad_hidden: The camera shows no pad.
-        camera_dead: No records come.
+        camera_dead: No frames come.
+        camera_broken: The frames that come are malformed.
         lidar_dead: The LiDAR gives nothing.
         lidar_factor: What it measures, as a part of the truth.
         wind: Acceleration by gusts at a time in seconds.
+        noise: What comes on a link besides what is said, each tick.
         sent: What the firmware sent to the autopilot and to the ground.
         texts: STATUSTEXT to the ground with their times.
         track: Time in s, north, east, height in m and heading in rad, each tick.
     """
 
     autopilot: Autopilot
+    board: Board
     pad_hidden: bool = False
     camera_dead: bool = False
+    camera_broken: bool = False
     lidar_dead: bool = False
     lidar_factor: float = 1.0
     wind: Callable[[float], tuple[float, float]] = lambda _time_s: (0.0, 0.0)
+    noise: Callable[[int], bytes] = lambda _link: b""
     sent: dict[int, list[Sent]] = field(default_factory=lambda: {AUTOPILOT: [], GROUND: []})
     texts: list[tuple[float, str]] = field(default_factory=list)
     track: list[tuple[float, float, float, float, float]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.firmware = Firmware()
         self.camera = Camera()
         self.now_us = 0
-        self._frames = 0
         self._ground = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
-        self._factor_before = self.firmware.factor
+        self._listeners = {AUTOPILOT: Listener(), GROUND: Listener()}
 
     @property
     def time_s(self) -> float:
@@ -93,7 +96,7 @@ class Flight:
 
     def from_ground(self, message: mavlink.MAVLink_message) -> None:
         """The ground sends a message."""
-        self.firmware.on_bytes(GROUND, bytes(message.pack(self._ground)), self.now_us)
+        self.board.say(GROUND, bytes(message.pack(self._ground)))
 
     def switch(self, on: bool) -> None:
         """The pilot moves the switch of channel 8."""
@@ -121,12 +124,12 @@ class Flight:
     def _tick(self) -> None:
         self.now_us += TICK_US
         self.autopilot.fly(self.now_us, TICK_US / 1e6, self.wind(self.time_s))
-        self.firmware.on_bytes(AUTOPILOT, self.autopilot.say(self.now_us), self.now_us)
+        self.board.say(AUTOPILOT, self.autopilot.say(self.now_us))
+        for link in (AUTOPILOT, GROUND):
+            self.board.say(link, self.noise(link))
         if self.now_us // FRAME_US != (self.now_us - TICK_US) // FRAME_US and not self.camera_dead:
             self._frame()
-        lidar_m = self._lidar_m()
-        self.firmware.tick(self.now_us, None if self.lidar_dead else round(1000 * lidar_m))
-        self._pass_on()
+        self._pass_on(self.board.run_to(self.now_us, None if self.lidar_dead else round(1000 * self._lidar_m())))
         vehicle = self.vehicle
         heading_rad = math.remainder(vehicle.heading_rad, math.tau)
         self.track.append((self.time_s, vehicle.north_m, vehicle.east_m, vehicle.height_m, heading_rad))
@@ -147,34 +150,17 @@ class Flight:
         return self.lidar_factor * self.vehicle.height_m / float(camera_from_level(self._pose())[2, 2])
 
     def _frame(self) -> None:
-        self._frames += 1
-        objects = objects_of(self.camera, self._pose(), self.firmware.min_area_px)
-        record = result_writer.record(
-            {
-                "frame_number": self._frames,
-                "start_time_us": self.now_us - 16_500,
-                "scan_time_us": 16_072,
-                "altitude_mm": 0 if self.lidar_dead else round(1000 * self._lidar_m()),
-                "altitude_valid": int(not self.lidar_dead),
-                "frame_size_width": _SIZE[0],
-                "frame_size_height": _SIZE[1],
-                "threshold_factor": self._factor_before,
-                "min_area": self.firmware.min_area_px,
-            },
-            objects[:0] if self.pad_hidden else objects,
-        )
-        self._factor_before = self.firmware.factor
-        error = self.firmware.on_record(record, self.now_us)
-        assert error == 0, f"the firmware refuses a record with {error}"
+        if self.camera_broken:
+            self.board.show(None)
+            return
+        objects = objects_of(self.camera, self._pose(), self.board.min_area_px)
+        self.board.show(objects[:0] if self.pad_hidden else objects)
 
-    def _pass_on(self) -> None:
-        for link in (AUTOPILOT, GROUND):
-            data = bytes(self.firmware.sent[link])
-            self.firmware.sent[link].clear()
-            messages = decode(data) if data else []
+    def _pass_on(self, sent: dict[int, bytes]) -> None:
+        for link, data in sent.items():
+            messages = self._listeners[link].hear(data)
             self.sent[link] += [Sent(self.time_s, message) for message in messages]
             if link == GROUND:
                 self.texts += [(self.time_s, m.text) for m in messages if m.get_type() == "STATUSTEXT"]
             elif data:
-                answers = self.autopilot.hear(data, self.now_us)
-                self.firmware.on_bytes(AUTOPILOT, answers, self.now_us)
+                self.board.say(AUTOPILOT, self.autopilot.hear(data, self.now_us))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whole landings and each failure on the way, with the firmware's core in this process."""
+"""Whole landings and each failure on the way; `conftest.py` says with which firmware."""
 
 import math
 import random
@@ -8,8 +8,9 @@ from collections.abc import Callable
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from firmware.library import AUTOPILOT, GROUND, make
+from firmware.library import AUTOPILOT, GROUND
 from sim.flight.autopilot import ARDUPILOT, PX4, Autopilot
+from sim.flight.board import Board
 from sim.flight.scenario import Flight
 from sim.flight.vehicle import Vehicle
 
@@ -26,16 +27,15 @@ PHASES = {
     "LAND": "aligned",
 }
 """What the ground reads when a phase of a normal landing begins."""
+SAID_S = 0.25
+"""In which a STATUSTEXT is on its way to the ground at 57600 baud, behind what was said before."""
+elf = pytest.mark.elf
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _library() -> None:
-    make("host")
-
-
-def hover(profile: str = ARDUPILOT, **where: float) -> Flight:
+def hover(board: Board, profile: str = ARDUPILOT, **where: float) -> Flight:
     """A flight that hovers near the pad, powered up 2.5 s ago."""
-    flight = Flight(Autopilot(profile, Vehicle(**({"north_m": -0.4, "east_m": 0.3, "height_m": 1.6} | where))))
+    vehicle = Vehicle(**({"north_m": -0.4, "east_m": 0.3, "height_m": 1.6} | where))
+    flight = Flight(Autopilot(profile, vehicle), board)
     flight.run(2.5)
     return flight
 
@@ -78,9 +78,10 @@ def velocities(flight: Flight, time_s: float) -> list[mavlink.MAVLink_message]:
     ]
 
 
+@elf
 @pytest.mark.parametrize("profile", PROFILES)
-def test_normal_landing_to_motors_off(profile: str) -> None:
-    flight = hover(profile, heading_rad=0.6)
+def test_normal_landing_to_motors_off(profile: str, board: Board) -> None:
+    flight = hover(board, profile, heading_rad=0.6)
     flight.switch(True)
     flight.run_to("down, motors off", 90)
     vehicle = flight.vehicle
@@ -105,8 +106,8 @@ def test_normal_landing_to_motors_off(profile: str) -> None:
     assert_lets_go(flight)
 
 
-def test_landing_in_gusts() -> None:
-    flight = hover(ARDUPILOT, heading_rad=-2.0)
+def test_landing_in_gusts(board: Board) -> None:
+    flight = hover(board, ARDUPILOT, heading_rad=-2.0)
     random.seed(7)
     gusts = [(random.gauss(0, 0.5), random.gauss(0, 0.5)) for _ in range(200)]
     flight.wind = lambda time_s: gusts[int(2 * time_s) % len(gusts)]
@@ -115,8 +116,8 @@ def test_landing_in_gusts() -> None:
     assert math.hypot(flight.vehicle.north_m, flight.vehicle.east_m) < 0.25
 
 
-def test_every_velocity_is_within_the_limits_and_none_comes_without_a_phase() -> None:
-    flight = hover(north_m=-1.0, east_m=1.0)
+def test_every_velocity_is_within_the_limits_and_none_comes_without_a_phase(board: Board) -> None:
+    flight = hover(board, north_m=-1.0, east_m=1.0)
     before = flight.time_s
     assert velocities(flight, 0.0) == []
     to_phase(flight, "LAND")
@@ -127,41 +128,48 @@ def test_every_velocity_is_within_the_limits_and_none_comes_without_a_phase() ->
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-@pytest.mark.parametrize("phase", PHASES)
-def test_pilot_takes_over(phase: str, profile: str) -> None:
+@pytest.mark.parametrize(
+    "phase", [pytest.param(phase, marks=elf if phase in ("CENTRE", "LAND") else ()) for phase in PHASES]
+)
+def test_pilot_takes_over(phase: str, profile: str, board: Board) -> None:
     """Let go at once, whatever the phase."""
-    flight = hover(profile)
+    flight = hover(board, profile)
     to_phase(flight, phase)
     flight.run(flight.time_s + 0.5)
-    flight.firmware.on_bytes(AUTOPILOT, flight.autopilot.set_mode("rtl"), flight.now_us)
-    flight.run_to("mode taken by pilot or failsafe", 0.02)
+    flight.board.say(AUTOPILOT, flight.autopilot.set_mode("rtl"))
+    told_s = flight.time_s
+    flight.run_to("mode taken by pilot or failsafe", SAID_S)
     assert_lets_go(flight)
+    assert commands_after(flight, told_s + 0.02) == []
     assert flight.autopilot.mode == "rtl"
 
 
-@pytest.mark.parametrize("by", ["switch", "command"])
+@pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
 @pytest.mark.parametrize("phase", PHASES)
-def test_abort(phase: str, by: str) -> None:
+def test_abort(phase: str, by: str, board: Board) -> None:
     """The autopilot's own hold is asked for, then nothing any more."""
-    flight = hover()
+    flight = hover(board)
     to_phase(flight, phase)
+    told_s = flight.time_s
     if by == "switch":
         flight.switch(False)
     else:
         flight.command(ABORT)
-    flight.run_to("aborted", 0.3)
+    flight.run_to("aborted", 0.3 + SAID_S)
+    assert [v for v in velocities(flight, told_s + 0.3) if v.vx or v.vy or v.vz or v.yaw_rate] == []
     flight.run_to("handed back to the autopilot", 2)
     assert flight.autopilot.mode == "hold"
     assert_lets_go(flight)
 
 
-def test_abort_on_the_ground_leaves_the_autopilot_alone() -> None:
-    flight = hover()
+@elf
+def test_abort_on_the_ground_leaves_the_autopilot_alone(board: Board) -> None:
+    flight = hover(board)
     flight.autopilot.sticky = True
     to_phase(flight, "LAND")
     flight.run_to("touched down")
     flight.command(ABORT)
-    flight.run_to("aborted on the ground", 0.1)
+    flight.run_to("aborted on the ground", SAID_S)
     assert_lets_go(flight)
     assert flight.autopilot.mode == "land"
 
@@ -180,18 +188,19 @@ def _set(**values: object) -> Change:
 MISSING = {
     "pad": (_set(pad_hidden=True), _set(pad_hidden=False), "pad lost"),
     "camera": (_set(camera_dead=True), _set(camera_dead=False), "no frames"),
+    "whole frames": (_set(camera_broken=True), _set(camera_broken=False), "no frames"),
     "lidar": (_set(lidar_dead=True), _set(lidar_dead=False), "LiDAR gives nothing"),
     "lidar wrong": (_set(lidar_factor=0.4), _set(lidar_factor=1.0), "LiDAR contradicts the pad's size"),
     "attitude": (_set(no_attitude=True), _set(no_attitude=False), "no ATTITUDE from autopilot"),
 }
 
 
-@pytest.mark.parametrize("missing", MISSING)
+@pytest.mark.parametrize("missing", [pytest.param(what, marks=elf if what == "pad" else ()) for what in MISSING])
 @pytest.mark.parametrize("phase", ["CENTRE", "ALIGN"])
-def test_what_is_missing_for_a_while(phase: str, missing: str) -> None:
+def test_what_is_missing_for_a_while(phase: str, missing: str, board: Board) -> None:
     """It stands still, and lands when it is back."""
     lose, find, text = MISSING[missing]
-    flight = hover()
+    flight = hover(board)
     to_phase(flight, phase)
     lose(flight)
     flight.run_to(text, 2.0)
@@ -204,17 +213,19 @@ def test_what_is_missing_for_a_while(phase: str, missing: str) -> None:
     flight.run_to("down, motors off", 60)
 
 
+@elf
 @pytest.mark.parametrize(
     ("missing", "text"),
     [
         ("camera", "still no frames"),
+        ("whole frames", "still no frames"),
         ("lidar", "LiDAR still gives nothing"),
         ("lidar wrong", "LiDAR still contradicts"),
         ("attitude", "still no ATTITUDE"),
     ],
 )
-def test_what_stays_missing_ends_the_landing(missing: str, text: str) -> None:
-    flight = hover()
+def test_what_stays_missing_ends_the_landing(missing: str, text: str, board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "DESCEND")
     MISSING[missing][0](flight)
     flight.run_to(text, 8.0)
@@ -223,8 +234,9 @@ def test_what_stays_missing_ends_the_landing(missing: str, text: str) -> None:
     assert_lets_go(flight)
 
 
-def test_pad_that_stays_lost_is_looked_for_from_higher_up() -> None:
-    flight = hover()
+@elf
+def test_pad_that_stays_lost_is_looked_for_from_higher_up(board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "ALIGN")
     flight.pad_hidden = True
     flight.run_to("pad lost", 2)
@@ -238,8 +250,8 @@ def test_pad_that_stays_lost_is_looked_for_from_higher_up() -> None:
     assert_lets_go(flight)
 
 
-def test_pad_that_is_lost_again_and_again() -> None:
-    flight = hover()
+def test_pad_that_is_lost_again_and_again(board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "CENTRE")
     for _ in range(3):
         flight.pad_hidden = True
@@ -251,9 +263,9 @@ def test_pad_that_is_lost_again_and_again() -> None:
     flight.run_to("handed back to the autopilot", 3)
 
 
-def test_pad_lost_while_the_autopilot_lands() -> None:
+def test_pad_lost_while_the_autopilot_lands(board: Board) -> None:
     """High enough it turns back; below TD_COMMIT_M it goes on."""
-    flight = hover()
+    flight = hover(board)
     to_phase(flight, "LAND")
     flight.run(flight.time_s + 0.5)
     flight.pad_hidden = True
@@ -268,8 +280,9 @@ def test_pad_lost_while_the_autopilot_lands() -> None:
     assert math.hypot(flight.vehicle.north_m, flight.vehicle.east_m) < 0.15
 
 
-def test_autopilot_falls_silent() -> None:
-    flight = hover()
+@elf
+def test_autopilot_falls_silent(board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "DESCEND")
     flight.autopilot.silent = True
     flight.run_to("autopilot is silent", 4)
@@ -277,9 +290,9 @@ def test_autopilot_falls_silent() -> None:
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-@pytest.mark.parametrize("how", ["refuses", "deaf"])
-def test_autopilot_does_not_let_itself_be_steered(how: str, profile: str) -> None:
-    flight = hover(profile)
+@pytest.mark.parametrize("how", [pytest.param("refuses", marks=elf), "deaf"])
+def test_autopilot_does_not_let_itself_be_steered(how: str, profile: str, board: Board) -> None:
+    flight = hover(board, profile)
     setattr(flight.autopilot, how, True)
     flight.switch(True)
     flight.run_to("autopilot refuses to be steered", 5)
@@ -287,8 +300,9 @@ def test_autopilot_does_not_let_itself_be_steered(how: str, profile: str) -> Non
     assert flight.autopilot.mode == "loiter"
 
 
-def test_autopilot_refuses_to_land_and_then_to_hold() -> None:
-    flight = hover()
+@elf
+def test_autopilot_refuses_to_land_and_then_to_hold(board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "ALIGN")
     flight.autopilot.refuses = True
     flight.run_to("autopilot refuses a mode", 20)
@@ -296,17 +310,18 @@ def test_autopilot_refuses_to_land_and_then_to_hold() -> None:
     assert_lets_go(flight)
 
 
-@pytest.mark.parametrize("phase", ["CENTRE", "DESCEND", "ALIGN"])
-def test_low_battery_with_the_pad_in_sight(phase: str) -> None:
-    flight = hover()
+@pytest.mark.parametrize("phase", [pytest.param("CENTRE", marks=elf), "DESCEND", "ALIGN"])
+def test_low_battery_with_the_pad_in_sight(phase: str, board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, phase)
     flight.autopilot.battery_percent = 10
     flight.run_to("battery low: lands at once", 2)
     flight.run_to("down, motors off", 30)
 
 
-def test_low_battery_without_a_pad() -> None:
-    flight = hover()
+@elf
+def test_low_battery_without_a_pad(board: Board) -> None:
+    flight = hover(board)
     flight.pad_hidden = True
     flight.switch(True)
     flight.run_to("steering", 3)
@@ -315,9 +330,10 @@ def test_low_battery_without_a_pad() -> None:
     flight.run_to("handed back to the autopilot", 3)
 
 
-def test_ground_link_lost() -> None:
+@elf
+def test_ground_link_lost(board: Board) -> None:
     """It counts only where the ground said that it is needed."""
-    flight = hover()
+    flight = hover(board)
     heartbeat = mavlink.MAVLink_heartbeat_message(mavlink.MAV_TYPE_GCS, 8, 0, 0, 4, 3)
     name = b"TD_GCS_NEEDED"
     flight.from_ground(mavlink.MAVLink_param_set_message(1, 191, name, 1.0, mavlink.MAV_PARAM_TYPE_REAL32))
@@ -327,23 +343,24 @@ def test_ground_link_lost() -> None:
     flight.run_to("handed back to the autopilot", 3)
 
 
-def test_hold_and_go_on() -> None:
-    flight = hover()
+@elf
+def test_hold_and_go_on(board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "DESCEND")
     flight.command(PAUSE_CONTINUE, 0)
-    flight.run_to("held by the ground", 0.1)
+    flight.run_to("held by the ground", SAID_S)
     since = flight.time_s
     flight.run(since + 2)
     assert all(v.vx == v.vy == v.vz == v.yaw_rate == 0.0 for v in velocities(flight, since))
     flight.command(PAUSE_CONTINUE, 1)
-    flight.run_to("goes on", 0.1)
+    flight.run_to("goes on", SAID_S)
     flight.run_to("down, motors off", 60)
 
 
 @pytest.mark.parametrize(
     ("change", "text"),
     [
-        (_set(battery_percent=5), "no start: battery is low"),
+        pytest.param(_set(battery_percent=5), "no start: battery is low", marks=elf),
         (_set(camera_dead=True), "no start: no frames"),
         (_set(lidar_dead=True), "no start: LiDAR gives nothing"),
         (_set(no_attitude=True), "no start: no ATTITUDE from autopilot"),
@@ -351,17 +368,17 @@ def test_hold_and_go_on() -> None:
         (_set(silent=True), "no start: autopilot is silent"),
     ],
 )
-def test_no_start(change: Change, text: str) -> None:
-    flight = hover()
+def test_no_start(change: Change, text: str, board: Board) -> None:
+    flight = hover(board)
     change(flight)
     flight.run(flight.time_s + 4)
     flight.command(LAND)
-    flight.run_to(text, 0.1)
+    flight.run_to(text, SAID_S)
     assert_lets_go(flight)
 
 
-def test_switch_that_is_on_at_power_up_starts_nothing() -> None:
-    flight = Flight(Autopilot(ARDUPILOT, Vehicle()))
+def test_switch_that_is_on_at_power_up_starts_nothing(board: Board) -> None:
+    flight = Flight(Autopilot(ARDUPILOT, Vehicle()), board)
     flight.switch(True)
     flight.run(5.0)
     assert not any("start" in text for _, text in flight.texts[1:])
@@ -371,8 +388,8 @@ def test_switch_that_is_on_at_power_up_starts_nothing() -> None:
     flight.run_to("start", 1)
 
 
-def test_motors_that_stay_on_after_touchdown() -> None:
-    flight = hover()
+def test_motors_that_stay_on_after_touchdown(board: Board) -> None:
+    flight = hover(board)
     flight.autopilot.sticky = True
     to_phase(flight, "LAND")
     flight.run_to("touched down", 20)
@@ -381,23 +398,18 @@ def test_motors_that_stay_on_after_touchdown() -> None:
     assert flight.time_s - touched_s > 5.0
 
 
-def test_garbage_on_both_wires_changes_nothing() -> None:
-    flight = hover()
-    noise = random.Random(3)
-    tick = flight.firmware.tick
-
-    def noisy_tick(now_us: int, lidar_mm: int | None = 1000, age_us: int = 0) -> None:
-        for link in (AUTOPILOT, GROUND):
-            flight.firmware.on_bytes(link, noise.randbytes(noise.randrange(40)), now_us)
-        tick(now_us, lidar_mm, age_us)
-
-    flight.firmware.tick = noisy_tick
+@elf
+def test_garbage_on_both_wires_changes_nothing(board: Board) -> None:
+    flight = hover(board)
+    chance = random.Random(3)
+    flight.noise = lambda _link: chance.randbytes(chance.randrange(40))
     to_phase(flight, "LAND")
     flight.run_to("down, motors off", 30)
 
 
-def test_log_of_phases_is_said_when_asked_for() -> None:
-    flight = hover()
+@elf
+def test_log_of_phases_is_said_when_asked_for(board: Board) -> None:
+    flight = hover(board)
     to_phase(flight, "CENTRE")
     flight.command(ABORT)
     flight.run_to("handed back", 3)
@@ -414,12 +426,13 @@ def test_log_of_phases_is_said_when_asked_for() -> None:
     ]
     seen = len(flight.texts)
     flight.command(LAND)
-    flight.run(flight.time_s + 0.2)
+    flight.run(flight.time_s + SAID_S)
     assert [text for _, text in flight.texts[seen:]] == ["Touchdown: start"]
 
 
-def test_parameters_as_a_ground_station_sees_them() -> None:
-    flight = hover()
+@elf
+def test_parameters_as_a_ground_station_sees_them(board: Board) -> None:
+    flight = hover(board)
     flight.from_ground(mavlink.MAVLink_param_request_list_message(1, 191))
     flight.run(flight.time_s + 2)
     values = [sent.message for sent in flight.sent[GROUND] if sent.message.get_type() == "PARAM_VALUE"]
@@ -429,7 +442,7 @@ def test_parameters_as_a_ground_station_sees_them() -> None:
     def set_speed(value: float) -> float:
         kind = mavlink.MAV_PARAM_TYPE_REAL32
         flight.from_ground(mavlink.MAVLink_param_set_message(1, 191, b"TD_SPEED", value, kind))
-        flight.run(flight.time_s + 0.1)
+        flight.run(flight.time_s + SAID_S)
         answers = [sent.message for sent in flight.sent[GROUND] if sent.message.get_type() == "PARAM_VALUE"]
         return answers[-1].param_value
 
@@ -438,8 +451,9 @@ def test_parameters_as_a_ground_station_sees_them() -> None:
     assert set_speed(math.nan) == 0.25
 
 
-def test_message_intervals_are_asked_for_until_they_come() -> None:
-    flight = Flight(Autopilot(ARDUPILOT, Vehicle()))
+@elf
+def test_message_intervals_are_asked_for_until_they_come(board: Board) -> None:
+    flight = Flight(Autopilot(ARDUPILOT, Vehicle()), board)
     hear = flight.autopilot.hear
     flight.autopilot.hear = lambda _data, _now_us: b""
     flight.run(4.0)

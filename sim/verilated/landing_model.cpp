@@ -10,7 +10,6 @@
 #include "Vlanding_core.h"
 #include "Vlanding_core___024root.h"
 #include "landing_layout.h"
-#include "stage_taps.h"
 
 namespace touchdown {
 
@@ -29,11 +28,10 @@ void must_be_okay(uint8_t response, const char* access, uint32_t address) {
 }
 }  // namespace
 
-LandingModel::LandingModel(const ModelConfig& config, const FrameList& frames, Board& board)
+LandingModel::LandingModel(const ModelConfig& config, Camera& camera, Board& board)
     : config_(config),
-      frames_(frames),
+      camera_(camera),
       board_(board),
-      video_(frames, config.video),
       lidar_(config.clk_per_us),
       memory_(board, config.memory),
       context_(std::make_unique<VerilatedContext>()),
@@ -116,7 +114,7 @@ void LandingModel::clk_sample() {
 // What changes after this edge of clk.
 void LandingModel::clk_drive() {
     const AxiMemory::ToMaster& slave = memory_.clock(master_);
-    const bool lidar = lidar_.next(top_->lidar_drive_low, frames_.altitude_mm(video_.index()));
+    const bool lidar = lidar_.next(top_->lidar_drive_low, camera_.altitude_mm());
     if (top_->m_axi_awready != slave.awready || top_->m_axi_wready != slave.wready ||
         top_->m_axi_bvalid != slave.bvalid || top_->lidar_in != lidar) {
         top_->m_axi_awready = slave.awready;
@@ -144,13 +142,13 @@ void LandingModel::start_camera() {
     if (camera_deadline_ns_ == 0) camera_deadline_ns_ = now_ns() + config_.camera_wait_ns;
     if (!root.landing_core__DOT__lidar_valid && now_ns() < camera_deadline_ns_) return;
     camera_started_ = true;
-    video_.start();
+    camera_.start();
 }
 
 void LandingModel::pix_drive() {
-    if (first_pixel_) board_.first_pixel(video_.index(), now_ns());
-    if (last_pixel_) board_.last_pixel(video_.index(), now_ns());
-    const VideoSample sample = video_.next(first_pixel_, last_pixel_);
+    if (first_pixel_) board_.first_pixel(camera_.index(), now_ns());
+    if (last_pixel_) board_.last_pixel(camera_.index(), now_ns());
+    const VideoSample sample = camera_.next(first_pixel_, last_pixel_);
     if (sample.de) top_->vid_data = sample.rgb;
     top_->vid_de = sample.de;
     top_->vid_hsync = sample.hsync;

@@ -12,16 +12,23 @@
 
 #include "axi_memory.h"
 #include "board.h"
-#include "frame_list.h"
+#include "camera.h"
 #include "lidar_pin.h"
-#include "video_source.h"
 
 class VerilatedContext;
 class Vlanding_core;
+class Vlanding_core___024root;
 
 namespace touchdown {
 
-class StageTaps;
+// Somebody who looks inside.
+class Taps {
+public:
+    virtual ~Taps() = default;
+
+    // The values just before an edge of clk.
+    virtual void sample(const Vlanding_core___024root& root) = 0;
+};
 
 struct ModelConfig {
     uint64_t clk_hz = 100'000'000;
@@ -29,17 +36,15 @@ struct ModelConfig {
     uint64_t clk_per_us = 100;  // as landing_core was built
     // How long the camera waits after CTRL.ENABLE for the first LiDAR reading.
     uint64_t camera_wait_ns = 60'000'000;
-    VideoTiming video;
     AxiMemoryTiming memory;
 };
 
 class LandingModel {
 public:
-    LandingModel(const ModelConfig& config, const FrameList& frames, Board& board);
+    LandingModel(const ModelConfig& config, Camera& camera, Board& board);
     ~LandingModel();
 
-    // Stage streams are handed to `taps` from now on.
-    void attach(StageTaps& taps) { taps_ = &taps; }
+    void attach(Taps& taps) { taps_ = &taps; }
 
     // Runs until the next clock edge would lie after `time_ns`. A time that has
     // passed already does nothing.
@@ -53,7 +58,6 @@ public:
     uint64_t now_ns() const;
     uint64_t clocks() const { return clocks_; }  // of clk, so far
     bool irq() const { return irq_; }
-    bool frames_finished() const { return video_.finished(); }
 
 private:
     void step();
@@ -65,12 +69,11 @@ private:
     void wait_for(Done done);
 
     ModelConfig config_;
-    const FrameList& frames_;
+    Camera& camera_;
     Board& board_;
-    VideoSource video_;
     LidarPin lidar_;
     AxiMemory memory_;
-    StageTaps* taps_ = nullptr;
+    Taps* taps_ = nullptr;
 
     std::unique_ptr<VerilatedContext> context_;
     std::unique_ptr<Vlanding_core> top_;

@@ -13,20 +13,20 @@
 #include <string>
 #include <vector>
 
-class Vlanding_core___024root;
+#include "landing_model.h"
 
 namespace touchdown {
 
-class StageTaps {
+class StageTaps final : public Taps {
 public:
     // Throws std::runtime_error if a file cannot be made.
     explicit StageTaps(const std::string& folder);
-    ~StageTaps();
+    ~StageTaps() override;
     StageTaps(const StageTaps&) = delete;
     StageTaps& operator=(const StageTaps&) = delete;
 
-    // The values just before an edge of clk. Throws std::runtime_error where a stream breaks its protocol.
-    void sample(const Vlanding_core___024root& root);
+    // Throws std::runtime_error where a stream breaks its protocol.
+    void sample(const Vlanding_core___024root& root) override;
 
 private:
     struct Handshake {

@@ -16,6 +16,7 @@
 #include "sim/verilated/landing_model.h"
 #include "sim/verilated/ram_board.h"
 #include "sim/verilated/stage_taps.h"
+#include "sim/verilated/video_source.h"
 
 namespace touchdown {
 namespace {
@@ -29,11 +30,13 @@ void run(const Arguments& arguments) {
     RunLog log(arguments.text("out"));
     const FrameList frames(arguments.text("frames"));
     RamBoard board(log);
+    VideoTiming timing;
+    timing.frame_clocks = arguments.number("frame-clocks");
+    VideoSource video(frames, timing);
     ModelConfig config;
-    config.video.frame_clocks = arguments.number("frame-clocks");
     config.memory.random = arguments.number("random-memory") != 0;
     config.memory.seed = arguments.number("seed");
-    LandingModel model(config, frames, board);
+    LandingModel model(config, video, board);
     std::unique_ptr<StageTaps> taps;
     if (arguments.number("taps") != 0) {
         taps = std::make_unique<StageTaps>(arguments.text("out"));
@@ -50,7 +53,7 @@ void run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const uint64_t first_clock = model.clocks();
     uint64_t time_ns = model.now_ns();
-    while (!model.frames_finished() || time_ns < board.last_pixel_ns() + TAIL_NS) {
+    while (!video.finished() || time_ns < board.last_pixel_ns() + TAIL_NS) {
         time_ns += QUANTUM_NS;
         model.advance_to(time_ns);
     }

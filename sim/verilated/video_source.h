@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "camera.h"
 #include "frame_list.h"
 
 namespace touchdown {
@@ -22,25 +23,16 @@ struct VideoTiming {
     uint64_t frame_clocks = 0;
 };
 
-struct VideoSample {
-    uint32_t rgb = 0;  // {R, G, B}
-    bool de = false;
-    bool hsync = false;
-    bool vsync = false;
-};
-
-class VideoSource {
+class VideoSource final : public Camera {
 public:
     VideoSource(const FrameList& frames, const VideoTiming& timing);
 
-    void start() { running_ = true; }
-    bool finished() const { return index_ == frames_.shown(); }
-    // The frame on the wire, or the last one when all were shown.
-    uint32_t index() const { return finished() ? index_ - 1 : index_; }
+    void start() override { running_ = true; }
+    VideoSample next(bool& first, bool& last) override;
+    uint32_t index() const override { return finished() ? index_ - 1 : index_; }
+    uint32_t altitude_mm() const override { return frames_.altitude_mm(index()); }
 
-    // What the camera drives for the next pixel clock. `first` and `last` say
-    // whether it is the first or the last pixel of frame index().
-    VideoSample next(bool& first, bool& last);
+    bool finished() const { return index_ == frames_.shown(); }
 
 private:
     const FrameList& frames_;

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What flies: the firmware's core in this process, or the board's ELF on QEMU's Zynq with landing_core beside it."""
+
+import contextlib
+import shutil
+import socket
+import struct
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from pymavlink.dialects.v20 import common as mavlink
+
+from firmware.library import AUTOPILOT, GROUND, Firmware
+from golden import result_writer
+from scripts.errors import UserError
+from sim.cosim.build import build_firmware, build_flight_plugin
+from sim.cosim.qemu import find_qemu, qemu_command
+
+SIZE = (1280, 720)
+_NO_FRAME, _MALFORMED = -1, -2
+_WAIT_S = 60.0
+
+
+class Board(Protocol):
+    """A firmware with time, wires, a camera and a LiDAR."""
+
+    min_area_px: int
+    """Smaller shapes need not be shown."""
+
+    def say(self, link: int, data: bytes) -> None:
+        """Bytes come in on a link from now on."""
+
+    def show(self, objects: np.ndarray | None) -> None:
+        """A frame with these shapes, `OBJECT_DTYPE`, starts now; None: one that is malformed."""
+
+    def run_to(self, now_us: int, lidar_mm: int | None) -> dict[int, bytes]:
+        """Let time pass; returns what was sent, by link. `lidar_mm` None: the LiDAR gives nothing."""
+
+    def close(self) -> None:
+        """Power off."""
+
+
+class HostBoard:
+    """The core alone: it takes no time, and bytes are there at once.
+
+    A record is handled in the instant in which its frame starts; it says that the frame began a frame's time ago.
+    """
+
+    def __init__(self) -> None:
+        self._firmware = Firmware()
+        self._frames = 0
+        self._factor_before = self._firmware.factor
+        self._heard: list[tuple[int, bytes]] = []
+        self._frame: np.ndarray | None = None
+
+    @property
+    def min_area_px(self) -> int:
+        """What the firmware would write into MIN_AREA."""
+        return self._firmware.min_area_px
+
+    def say(self, link: int, data: bytes) -> None:
+        """See `Board`."""
+        self._heard.append((link, data))
+
+    def show(self, objects: np.ndarray | None) -> None:
+        """See `Board`."""
+        self._frames += 1
+        self._frame = objects
+
+    def run_to(self, now_us: int, lidar_mm: int | None) -> dict[int, bytes]:
+        """See `Board`."""
+        for link, data in self._heard:
+            self._firmware.on_bytes(link, data, now_us)
+        self._heard.clear()
+        if self._frame is not None:
+            self._on_frame(self._frame, now_us, lidar_mm)
+            self._frame = None
+        self._firmware.tick(now_us, lidar_mm)
+        sent = {link: bytes(data) for link, data in self._firmware.sent.items()}
+        for data in self._firmware.sent.values():
+            data.clear()
+        return sent
+
+    def _on_frame(self, objects: np.ndarray, now_us: int, lidar_mm: int | None) -> None:
+        record = result_writer.record(
+            {
+                "frame_number": self._frames,
+                "start_time_us": now_us - 16_500,
+                "scan_time_us": 16_072,
+                "altitude_mm": lidar_mm or 0,
+                "altitude_valid": int(lidar_mm is not None),
+                "frame_size_width": SIZE[0],
+                "frame_size_height": SIZE[1],
+                "threshold_factor": self._factor_before,
+                "min_area": self._firmware.min_area_px,
+            },
+            objects,
+        )
+        self._factor_before = self._firmware.factor
+        error = self._firmware.on_record(record, now_us)
+        assert error == 0, f"the firmware refuses a record with {error}"
+
+    def close(self) -> None:
+        """See `Board`."""
+
+
+class ZynqBoard:
+    """The ELF on QEMU; what lies between camera and objects has stand-ins, the rest of landing_core is the RTL.
+
+    Attributes:
+        frame_ns: From the end of the newest record in memory to the first byte about it to the ground; 0 = not yet.
+    """
+
+    min_area_px = 0
+    """landing_core leaves out what is too small."""
+
+    def __init__(self) -> None:
+        self._folder = Path(tempfile.mkdtemp(prefix="touchdown-"))
+        self._heard = {AUTOPILOT: b"", GROUND: b""}
+        self.frame_ns = 0
+        self._frame = _NO_FRAME
+        self._objects = b""
+        path = self._folder / "world"
+        with socket.socket(socket.AF_UNIX) as door:
+            door.bind(str(path))
+            door.listen(1)
+            door.settimeout(_WAIT_S)
+            command = qemu_command(
+                find_qemu(), build_firmware(), build_flight_plugin(), {"world": path}, self._folder, log_uarts=False
+            )
+            self._log = self._folder / "run.log"
+            with self._log.open("w") as log:
+                self._process = subprocess.Popen(
+                    command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT
+                )
+            try:
+                self._wire, _ = door.accept()
+            except TimeoutError:
+                self.close()
+                raise UserError(f"QEMU does not start within {_WAIT_S:g} s; is the machine overloaded?") from None
+        self._wire.settimeout(_WAIT_S)
+
+    def say(self, link: int, data: bytes) -> None:
+        """See `Board`; bytes take the time of the line."""
+        self._heard[link] += data
+
+    def show(self, objects: np.ndarray | None) -> None:
+        """See `Board`."""
+        self._frame = _MALFORMED if objects is None else len(objects)
+        self._objects = b"" if objects is None else objects.tobytes()
+
+    def run_to(self, now_us: int, lidar_mm: int | None) -> dict[int, bytes]:
+        """See `Board`; what is still on the line comes next time.
+
+        Raises:
+            UserError: QEMU ended, with what it said.
+        """
+        heard = [self._heard[link] for link in (AUTOPILOT, GROUND)]
+        numbers = (1000 * now_us, lidar_mm or 0, self._frame, len(heard[0]), len(heard[1]))
+        try:
+            self._wire.sendall(struct.pack("<QIiII", *numbers) + heard[0] + heard[1] + self._objects)
+            *counts, self.frame_ns = struct.unpack("<IIQ", self._take(16))
+            sent = {link: self._take(counts[link]) for link in (AUTOPILOT, GROUND)}
+        except OSError as error:
+            self._process.wait(_WAIT_S)
+            raise UserError(f"QEMU ended: {self._log.read_text(errors='replace').strip() or error}") from error
+        self._heard = {AUTOPILOT: b"", GROUND: b""}
+        self._frame, self._objects = _NO_FRAME, b""
+        return sent
+
+    def _take(self, count: int) -> bytes:
+        data = b""
+        while len(data) < count:
+            piece = self._wire.recv(count - len(data))
+            if not piece:
+                raise ConnectionResetError("the connection is closed")
+            data += piece
+        return data
+
+    def close(self) -> None:
+        """See `Board`."""
+        self._process.kill()
+        self._process.wait()
+        with contextlib.suppress(AttributeError):
+            self._wire.close()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+
+class Listener:
+    """Takes MAVLink off a line piece by piece."""
+
+    def __init__(self) -> None:
+        self._parser = mavlink.MAVLink(None)
+        self._parser.robust_parsing = True
+
+    def hear(self, data: bytes) -> list[mavlink.MAVLink_message]:
+        """Messages that have ended.
+
+        Raises:
+            AssertionError: some byte belongs to no valid MAVLink 2 message.
+        """
+        messages = (self._parser.parse_buffer(data) or []) if data else []
+        bad = [message for message in messages if message.get_type() == "BAD_DATA"]
+        assert not bad, f"{len(bad)} stretches of bytes are not MAVLink: {bad[0]}"
+        return messages
