@@ -106,6 +106,7 @@ interrupt_entry:
     vpop    {d0-d7}
     add     sp, sp, r1
     pop     {r0-r3, r12, lr}
+interrupt_return:                           // where the co-simulation stops counting
     rfeia   sp!
 
 // fault_report(kind, address of the instruction) does not return.

@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "cosim"
 PLUGIN = BUILD / "touchdown-plugin.so"
 FLIGHT_PLUGIN = BUILD / "touchdown-flight-plugin.so"
+METER_PLUGIN = BUILD / "touchdown-meter-plugin.so"
 HOST = BUILD / "touchdown-host"
 STAGES = BUILD / "landing-stages"
 ELF = ROOT / "build" / "firmware" / "touchdown.elf"
@@ -87,6 +88,12 @@ def build_flight_plugin() -> Path:
     return FLIGHT_PLUGIN
 
 
+def build_meter_plugin() -> Path:
+    """The QEMU plugin that counts instructions."""
+    _build("meter-plugin")
+    return METER_PLUGIN
+
+
 def build_host() -> Path:
     """landing_core and the firmware's core in one host program."""
     _build("host")
@@ -104,3 +111,11 @@ def build_firmware() -> Path:
     need("arm-none-eabi-gcc")
     _make("firmware", ["-C", "firmware", "elf"])
     return ELF
+
+
+def symbols(elf: Path) -> dict[str, int]:
+    """Addresses of an ELF's symbols."""
+    nm = need("arm-none-eabi-nm")
+    lines = subprocess.run([nm, str(elf)], capture_output=True, text=True, check=True).stdout.splitlines()
+    rows = [line.split() for line in lines]
+    return {row[2]: int(row[0], 16) for row in rows if len(row) == 3}

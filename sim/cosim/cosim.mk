@@ -25,9 +25,10 @@ FIRMWARE_LIBRARY := build/firmware/libtouchdown.a
 MODEL_LIBS := $(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a
 
 # verilator itself sees to it that unchanged sources change nothing.
-.PHONY: plugin flight-plugin host stages
+.PHONY: plugin flight-plugin meter-plugin host stages
 plugin: $(BUILD)/touchdown-plugin.so
 flight-plugin: $(BUILD)/touchdown-flight-plugin.so
+meter-plugin: $(BUILD)/touchdown-meter-plugin.so
 host: $(BUILD)/touchdown-host
 stages: $(BUILD)/landing-stages
 
@@ -67,6 +68,9 @@ $(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_frames.o $(BUILD)/obj/qemu_machi
 
 $(BUILD)/touchdown-flight-plugin.so: $(FLIGHT_OBJECTS) $(FLIGHT_MODEL)/libVlanding_core.a $(FLIGHT_MODEL)/libverilated.a
 	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
+
+$(BUILD)/touchdown-meter-plugin.so: $(BUILD)/obj/qemu_meter.o
+	$(CXX) -shared -o $@ $^
 
 # firmware/Makefile knows whether its library is up to date.
 .PHONY: firmware-library

@@ -45,3 +45,9 @@ def qemu_command(
         *("-serial", uarts[0], "-serial", uarts[1]),
         *("-kernel", str(elf), "-plugin", f"file={plugin}{options}"),
     ]
+
+
+def last_sentence(log: Path) -> str:
+    """What one of our plugins or programs said last before it ended; nothing if it said nothing."""
+    lines = log.read_text(errors="replace").splitlines()
+    return next((line.removeprefix("touchdown: ") for line in reversed(lines) if line.startswith("touchdown: ")), "")

@@ -4,6 +4,7 @@
 // why the plugin refuses any other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace qemu {
@@ -17,6 +18,9 @@ constexpr int SCALE_NS = 1;
 constexpr int LITTLE_ENDIAN_DEVICE = 2;
 constexpr uint32_t MEM_OP_SIZE_4 = 2;  // MemOp: log2 of the size
 constexpr uint32_t ATTRS_UNSPECIFIED = 1;
+
+constexpr int PLUGIN_INLINE_ADD = 0;
+constexpr int PLUGIN_NO_REGISTERS = 0;
 
 // Larger than QEMU's own, which only QEMU looks into.
 struct MemoryRegion {
@@ -98,6 +102,15 @@ int64_t qemu_clock_get_ns(int clock);
 void timer_init_full(qemu::Timer* timer, void* group, int clock, int scale, int attributes, void (*callback)(void*),
                      void* opaque);
 void timer_mod(qemu::Timer* timer, int64_t expire);
+
+// QEMU's plugin interface; the meter needs no more.
+void qemu_plugin_register_vcpu_tb_trans_cb(uint64_t id, void (*callback)(uint64_t id, void* block));
+size_t qemu_plugin_tb_n_insns(const void* block);
+void* qemu_plugin_tb_get_insn(const void* block, size_t index);
+uint64_t qemu_plugin_insn_vaddr(const void* instruction);
+void qemu_plugin_register_vcpu_tb_exec_inline(void* block, int operation, void* number, uint64_t operand);
+void qemu_plugin_register_vcpu_insn_exec_cb(void* instruction, void (*callback)(unsigned cpu, void* data), int flags,
+                                            void* data);
 
 void* qemu_get_aio_context();
 void aio_bh_schedule_oneshot_full(void* context, void (*callback)(void*), void* opaque, const char* name);

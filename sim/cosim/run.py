@@ -11,7 +11,7 @@ import numpy as np
 from scripts.errors import UserError
 from sim.cosim.build import ROOT, build_firmware, build_host, build_plugin
 from sim.cosim.frame_list import FrameList, write_frame_list
-from sim.cosim.qemu import find_qemu, qemu_command
+from sim.cosim.qemu import find_qemu, last_sentence, qemu_command
 from sim.cosim.result import CosimResult, read_result
 
 FIRMWARES = ("qemu", "host")
@@ -119,9 +119,8 @@ def run_cosim(
                 process.kill()
                 process.wait()
     if process.returncode != 0:
-        sentences = [line for line in log.read_text(errors="replace").splitlines() if line.startswith("touchdown: ")]
-        if sentences:
-            raise UserError(sentences[-1].removeprefix("touchdown: "))
+        if sentence := last_sentence(log):
+            raise UserError(sentence)
         raise UserError(f"the co-simulation ended with code {process.returncode}; look at {log}.")
     frame_list.path.unlink()
     return read_result(out_dir, time.monotonic() - start)

@@ -26,7 +26,7 @@ public:
         begin();
         objects_ = std::move(objects);
         malformed_ = false;
-        end_clock_ = std::max(SCAN_US * clocks_per_us_, uint64_t{objects_.size()} * 8 + 1);
+        end_clock_ = std::max(SCAN_US * clocks_per_us_, uint64_t{objects_.size()} * 8 + LEAD_CLOCKS);
         return end_clock_ / clocks_per_us_;
     }
 
@@ -49,7 +49,7 @@ public:
         first = false;
         last = false;
         if (!busy_) return sample;
-        const uint64_t bit = clock_ - 1;  // the first clock is the vertical sync
+        const uint64_t bit = clock_ - LEAD_CLOCKS;
         if (clock_ == 0) {
             sample.vsync = true;
             sample.hsync = malformed_;
@@ -59,6 +59,8 @@ public:
             sample.hsync = true;
             last = true;
             busy_ = false;
+        } else if (clock_ == 1) {
+            sample.de = true;
         } else if (bit < objects_.size() * 8) {
             sample.de = true;
             sample.rgb = objects_[bit / 8] >> (bit % 8) & 1;
@@ -68,6 +70,9 @@ public:
     }
 
 private:
+    // Vertical sync, and the pixel that says that a frame has begun.
+    static constexpr uint64_t LEAD_CLOCKS = 2;
+
     void begin() {
         if (busy_) throw std::runtime_error("a frame starts while the one before is on the wire.");
         busy_ = started_;

@@ -7,6 +7,7 @@ import socket
 import struct
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Protocol
 
@@ -16,8 +17,8 @@ from pymavlink.dialects.v20 import common as mavlink
 from firmware.library import AUTOPILOT, GROUND, Firmware
 from golden import result_writer
 from scripts.errors import UserError
-from sim.cosim.build import build_firmware, build_flight_plugin
-from sim.cosim.qemu import find_qemu, qemu_command
+from sim.cosim.build import build_firmware, build_flight_plugin, build_meter_plugin, symbols
+from sim.cosim.qemu import find_qemu, last_sentence, qemu_command
 
 SIZE = (1280, 720)
 _NO_FRAME, _MALFORMED = -1, -2
@@ -117,7 +118,12 @@ class ZynqBoard:
     min_area_px = 0
     """landing_core leaves out what is too small."""
 
-    def __init__(self) -> None:
+    def __init__(self, spans: Mapping[str, tuple[str, str]] | None = None) -> None:
+        """Power up.
+
+        Args:
+            spans: Instructions to be counted, from one symbol of the ELF to another; see `passes`.
+        """
         self._folder = Path(tempfile.mkdtemp(prefix="touchdown-"))
         self._heard = {AUTOPILOT: b"", GROUND: b""}
         self.frame_ns = 0
@@ -131,6 +137,7 @@ class ZynqBoard:
             command = qemu_command(
                 find_qemu(), build_firmware(), build_flight_plugin(), {"world": path}, self._folder, log_uarts=False
             )
+            command += self._meter(spans) if spans else []
             self._log = self._folder / "run.log"
             with self._log.open("w") as log:
                 self._process = subprocess.Popen(
@@ -142,6 +149,16 @@ class ZynqBoard:
                 self.close()
                 raise UserError(f"QEMU does not start within {_WAIT_S:g} s; is the machine overloaded?") from None
         self._wire.settimeout(_WAIT_S)
+
+    def _meter(self, spans: Mapping[str, tuple[str, str]]) -> list[str]:
+        addresses = symbols(build_firmware())
+        wanted = "".join(f",{name}={addresses[a]:x}-{addresses[b]:x}" for name, (a, b) in spans.items())
+        return ["-plugin", f"file={build_meter_plugin()},out={self._folder / 'meter.txt'}{wanted}"]
+
+    def passes(self, span: str) -> list[int]:
+        """Instructions of each pass of a span so far, in order."""
+        lines = (self._folder / "meter.txt").read_text(encoding="ascii").splitlines()
+        return [int(count) for name, count in map(str.split, lines) if name == span]
 
     def say(self, link: int, data: bytes) -> None:
         """See `Board`; bytes take the time of the line."""
@@ -166,7 +183,7 @@ class ZynqBoard:
             sent = {link: self._take(counts[link]) for link in (AUTOPILOT, GROUND)}
         except OSError as error:
             self._process.wait(_WAIT_S)
-            raise UserError(f"QEMU ended: {self._log.read_text(errors='replace').strip() or error}") from error
+            raise UserError(f"QEMU ended: {last_sentence(self._log) or error}") from error
         self._heard = {AUTOPILOT: b"", GROUND: b""}
         self._frame, self._objects = _NO_FRAME, b""
         return sent

@@ -29,8 +29,9 @@ def test_the_elf_says_of_a_frame_what_the_core_says_here() -> None:
         with_elf = targets(board)
     finally:
         board.close()
-    assert len(with_core) == 1
-    assert with_elf == with_core
+    assert len(with_core) == len(with_elf) == 1
+    # exp and log of two libraries differ in their last bit.
+    assert with_elf[0] == pytest.approx(with_core[0], rel=1e-6)
 
 
 def pads(flight: Flight, field: str) -> set[float]:
@@ -68,7 +69,7 @@ def test_a_qemu_that_ends_is_one_sentence() -> None:
     board = ZynqBoard()
     try:
         board.run_to(5_000, 1000)
-        with pytest.raises(UserError, match="QEMU ended: touchdown: the world goes back in time"):
+        with pytest.raises(UserError, match="QEMU ended: the world goes back in time"):
             board.run_to(4_000, 1000)
             board.run_to(9_000, 1000)
     finally:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for ccl where a camera gives shapes instead of pixels: 512 bits of the stream are one object, bit 0 first,
-// and the beat with tlast ends the frame. While thresholds are missing a camera has no shapes to give.
+// Stands in for ccl where a camera gives shapes instead of pixels: a beat with tuser begins a frame, 512 of those after
+// it are one object, bit 0 first, and the beat with tlast ends the frame.
 // An object takes the result_writer far less than the 512 clocks until the next one: nothing stalls.
 `default_nettype none
 
@@ -43,7 +43,6 @@ module ccl #(
     reg         ending_reg;
 
     wire [511:0] object = {s_axis_tdata, object_reg[511:1]};
-    wire [8:0]   bits = s_axis_tuser ? 9'd0 : bits_reg;
 
     always @(posedge clk) begin
         frame_started <= s_axis_tvalid && s_axis_tuser;
@@ -54,9 +53,9 @@ module ccl #(
         if (s_axis_tvalid && s_axis_tuser) first_reg <= 1'b1;
         if (s_axis_tvalid) begin
             object_reg <= object;
-            bits_reg <= bits + 9'd1;
+            bits_reg <= s_axis_tuser ? 9'd0 : bits_reg + 9'd1;
         end
-        if (s_axis_tvalid && !s_axis_tlast && bits == 9'd511 && object[31:0] >= cfg_min_area) begin
+        if (s_axis_tvalid && !s_axis_tuser && !s_axis_tlast && bits_reg == 9'd511 && object[31:0] >= cfg_min_area) begin
             m_axis_tvalid <= 1'b1;
             m_axis_tdata <= object;
             m_axis_tuser <= first_reg;

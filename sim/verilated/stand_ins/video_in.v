@@ -2,8 +2,8 @@
 // Stands in for video_in where a camera gives shapes instead of pixels (sim/cosim/shapes_camera.h): the same ports, the
 // same counts, bits instead of pixels. pix_clk has the edges of clk.
 //
-// vid_vsync starts a frame; each vid_de after that carries one bit of the frame's objects in vid_data[0], the last one
-// none but vid_hsync. vid_vsync with vid_hsync is a frame that is malformed.
+// vid_vsync starts a frame; each vid_de after that carries one bit of the frame's objects in vid_data[0], but for the
+// first, which carries none, and the last, which has vid_hsync instead. vid_vsync with vid_hsync is a malformed frame.
 `default_nettype none
 
 module video_in #(

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How many instructions a frame and an interrupt take on the board, at worst, counted on QEMU."""
+
+import random
+
+import cv2
+import numpy as np
+import pytest
+
+from firmware.library import AUTOPILOT, GROUND
+from golden.ccl import ccl
+from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_MAX_OBJECTS
+from sim.flight.board import SIZE, ZynqBoard
+from sim.flight.sight import objects_of
+from sim.world.camera import Camera
+from sim.world.pose import Pose
+
+TRACKED_LIMIT = 300_000
+"""A frame in which the pad is where it was."""
+SEARCH_LIMIT = 1_500_000
+"""A frame in which it may be anywhere: 3 ms at 2 ns an instruction, well before the next frame."""
+INTERRUPT_LIMIT = 3_000
+SPANS = {"frame": ("landing_hw_take_frame", "landing_hw_adapt"), "interrupt": ("interrupt_entry", "interrupt_return")}
+_FRAME_US = 70_000
+
+
+def clutter(count: int, seed: int, around: np.ndarray) -> np.ndarray:
+    """Objects of a picture full of shapes as grass and gravel have them, none within the circle x, y, radius."""
+    chance = random.Random(seed)
+    picture = np.zeros((SIZE[1], SIZE[0]), np.uint8)
+    x, y, radius = around
+    while True:
+        for _ in range(200):
+            centre = (chance.randrange(SIZE[0]), chance.randrange(SIZE[1]))
+            axes = (chance.randrange(6, 22), chance.randrange(6, 22))
+            if np.hypot(centre[0] - x, centre[1] - y) > radius + 25:
+                cv2.ellipse(picture, centre, axes, chance.randrange(180), 0, 360, 1, -1)
+                cv2.rectangle(picture, centre, (centre[0] + axes[0], centre[1] + axes[1]), 0, 2)
+        objects = ccl(picture, 160)
+        if len(objects) >= count:
+            return objects[:count]
+        cv2.rectangle(picture, (0, 0), SIZE, 0, 8)
+
+
+def frame(board: ZynqBoard, now_us: int, objects: np.ndarray) -> int:
+    """Show one frame with talk on both wires; returns the time after it."""
+    board.show(objects)
+    chance = random.Random(now_us)
+    end_us = now_us + _FRAME_US
+    while now_us < end_us:
+        now_us += 5_000
+        for link in (AUTOPILOT, GROUND):
+            board.say(link, chance.randbytes(20))
+        board.run_to(now_us, 1000)
+    return now_us
+
+
+@pytest.fixture(scope="module")
+def scene() -> np.ndarray:
+    """The pad from 1 m among as many other shapes as a record holds, with some that look like its square."""
+    camera = Camera()
+    pad = objects_of(camera, Pose(altitude_m=1.0, right_m=0.05, forward_m=-0.05, pad_yaw_deg=30.0), 160)
+    ring = pad[np.argmax(pad["area"])]
+    around = np.array([ring["sum_x"] / ring["area"], ring["sum_y"] / ring["area"], 180.0])
+    objects = np.concatenate([clutter(RECORD_MAX_OBJECTS - len(pad), 5, around), pad])
+    assert objects.dtype == OBJECT_DTYPE
+    assert len(objects) == RECORD_MAX_OBJECTS
+    return objects
+
+
+def test_instructions_of_a_frame_and_an_interrupt(scene: np.ndarray) -> None:
+    board = ZynqBoard(SPANS)
+    try:
+        now_us = 100_000
+        board.run_to(now_us, 1000)
+        for _ in range(6):
+            now_us = frame(board, now_us, scene)
+        frames = board.passes("frame")
+        interrupts = board.passes("interrupt")
+    finally:
+        board.close()
+    print(f"frames: {frames}; interrupts: at most {max(interrupts)} of {len(interrupts)}")
+    assert len(frames) == 6
+    assert max(frames[1:]) <= TRACKED_LIMIT
+    assert TRACKED_LIMIT < frames[0] <= SEARCH_LIMIT
+    assert len(interrupts) > 100
+    assert max(interrupts) <= INTERRUPT_LIMIT
