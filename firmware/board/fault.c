@@ -16,6 +16,7 @@ _Noreturn void fault_report(uint32_t kind, uint32_t address)
     text_append(&text, "Touchdown: ");
     crash_append(&text, kind, address);
     uart_write_polled(UART_1, bytes, mavlink_out_status_text(&out, MAVLINK_OUT_CRITICAL, text.chars, bytes));
+    // Endless: what is to be said has been said.
     for (;;) {
         __asm__ volatile("wfi");
     }

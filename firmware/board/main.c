@@ -78,6 +78,7 @@ int main(void)
         landing_hw_start(app_min_area_px(&app), app_threshold_register(&app));
     }
     uint64_t next_complaints_us = 0;
+    // Endless: the main loop; each turn ends in a sleep of at most one tick.
     for (;;) {
         uint64_t now_us = has_hardware ? landing_hw_time_us() : timer_now_us();
 

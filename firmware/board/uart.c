@@ -59,6 +59,7 @@ static void pump(struct uart *uart)
 {
     uint8_t byte;
 
+    // Bounded: each turn takes a byte out of the ring, and nobody puts one in.
     while ((register_read(uart->base + STATUS) & STATUS_TX_FULL) == 0U && byte_ring_take(&uart->tx, &byte, 1U) == 1U) {
         register_write(uart->base + FIFO, byte);
     }
@@ -71,7 +72,8 @@ static void handle(struct uart *uart)
     const uint32_t status = register_read(uart->base + INTERRUPT_STATUS);
 
     register_write(uart->base + INTERRUPT_STATUS, status);
-    while ((register_read(uart->base + STATUS) & STATUS_RX_EMPTY) == 0U) {
+    // A UART that never runs empty is left to its next interrupt.
+    for (uint32_t i = 0; i < RX_BYTES && (register_read(uart->base + STATUS) & STATUS_RX_EMPTY) == 0U; i++) {
         const uint8_t byte = (uint8_t)register_read(uart->base + FIFO);
         // A full ring loses the byte; the checksum of the message tells.
         (void)byte_ring_put(&uart->rx, &byte, 1U);
@@ -154,6 +156,7 @@ void uart_write_polled(enum uart_id id, const uint8_t *bytes, size_t size)
     uint8_t byte;
 
     // A message that is cut off would swallow the start of this one.
+    // Bounded: each turn takes a byte out of the ring, and nobody puts one in.
     while (byte_ring_take(&uart->tx, &byte, 1U) == 1U) {
         if (!send_polled(uart->base, byte)) {
             return;

@@ -228,7 +228,8 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         record->header.threshold_factor == app->factor_before ? app->factor_before : FACTOR_SEARCH_MIXED;
     app->factor_before = record->header.threshold_factor;
     hint.searching = !factor_search_is_usual(factor);
-    attitude_tilt(&app->attitude, now_us, &hint.tilt);
+    // Without a fresh attitude the hint stays what it is without any.
+    (void)attitude_tilt(&app->attitude, now_us, &hint.tilt);
     if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
         record->header.start_time_us - app->last_view_us <= LAST_VIEW_US) {
         hint.last = &app->last_view;
@@ -267,13 +268,13 @@ void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, siz
 {
     for (size_t i = 0; i < size; i++) {
         struct mavlink_in_message message;
-        uint8_t reply[MAVLINK_OUT_MAX_BYTES];
         const enum mavlink_in_kind kind = mavlink_in_byte(&app->in[link], bytes[i], &message);
 
         if (kind == MAVLINK_IN_NOTHING) {
             continue;
         }
         if (kind == MAVLINK_IN_TIMESYNC_REQUEST) {
+            uint8_t reply[MAVLINK_OUT_MAX_BYTES];
             links_send(&app->links, link, reply,
                        mavlink_out_timesync_reply(&app->links.out[link], now_us, message.as.request_ns, reply));
         }

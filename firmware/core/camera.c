@@ -118,5 +118,5 @@ void camera_project(const struct camera *camera, const struct camera_ray *ray, d
 {
     const double point[3] = {ray->right, -ray->forward, 1.0};
 
-    camera_image(camera, point, x_px, y_px);
+    (void)camera_image(camera, point, x_px, y_px);
 }

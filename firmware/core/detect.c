@@ -88,9 +88,12 @@ static struct vector left_over(const struct detect_context *context, const struc
                                const struct reading *reading, unsigned kind)
 {
     const struct sighting *sighting = reading_of(reading, kind);
+    const struct vector nothing = {.x = 0.0};
     struct shape expected;
 
-    pad_plane_moments(plane, context->camera, kind, sighting->clipped, &expected);
+    if (!(pad_plane_moments(plane, context->camera, kind, sighting->clipped, &expected) > 0.0)) {
+        return nothing;
+    }
     return shape_offset(&expected, &sighting->seen);
 }
 

@@ -297,6 +297,7 @@ void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct ca
         // No variance exceeds the sum of both: most pairs are far apart and end here.
         const double reach = baseline_to_rectangle.greatest * baseline_to_rectangle.greatest *
                              (rectangle->cov_xx + rectangle->cov_yy);
+        // Bounded: `first` never passes i, over all turns of the loop around it.
         while (first < i && scratch->candidates[scratch->solids[first]].shape.area_px < least) {
             first++;
         }

@@ -88,7 +88,7 @@ void pad_plane_project(const struct pad_plane *plane, const struct camera *camer
     double point[3];
 
     point_of(plane, x_mm, y_mm, point);
-    camera_image(camera, point, x_px, y_px);
+    (void)camera_image(camera, point, x_px, y_px);
 }
 
 int pad_plane_unproject(const struct pad_plane *plane, const struct camera *camera, double x_px, double y_px,
@@ -245,7 +245,7 @@ double pad_plane_moments(const struct pad_plane *plane, const struct camera *cam
                         .clipped = clipped,
                         .height_mm = fabs(dot(plane->centre, plane->normal))};
 
-    camera_image(camera, plane->centre, &sums.origin_x_px, &sums.origin_y_px);
+    (void)camera_image(camera, plane->centre, &sums.origin_x_px, &sums.origin_y_px);
     if ((kinds & PAD_SQUARE) != 0U) {
         add_box(&sums, &square);
     }

@@ -271,7 +271,9 @@ static void match_fused(const struct detect_context *context, const struct pad_p
     struct shape_sum inner = {.area_px = 0.0};
     struct shape expected;
 
-    pad_plane_moments(plane, context->camera, PAD_INNER, false, &expected);
+    if (!(pad_plane_moments(plane, context->camera, PAD_INNER, false, &expected) > 0.0)) {
+        return;
+    }
     inner.origin = expected;
     for (int i = 0; i < context->scratch->count; i++) {
         const struct candidate *candidate = &context->scratch->candidates[i];

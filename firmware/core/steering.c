@@ -84,7 +84,8 @@ static struct mavlink_out_velocity search(const struct steering_view *view, cons
         return velocity;
     }
     for (int side = 0; side < SEARCH_SIDES_MAX; side++) {
-        const double side_s = SEARCH_SIDE_M * (double)(side / 2 + 1) / SEARCH_M_S;
+        const int length = side / 2 + 1; // two sides of each
+        const double side_s = SEARCH_SIDE_M * (double)length / SEARCH_M_S;
 
         if (left_s < side_s) {
             const double sign = side % 4 < 2 ? 1.0 : -1.0;

@@ -6,6 +6,7 @@
 
 void text_append(struct text *text, const char *more)
 {
+    // Bounded: each turn makes the text one character longer.
     for (size_t i = 0; more[i] != '\0' && text->length + 1U < sizeof text->chars; i++) {
         text->chars[text->length++] = more[i];
     }
@@ -17,6 +18,7 @@ void text_append_number(struct text *text, uint32_t number)
     char digits[DECIMAL_DIGITS_MAX + 1U] = {0};
     size_t first = DECIMAL_DIGITS_MAX;
 
+    // Bounded: `first` counts down to 0.
     do {
         digits[--first] = "0123456789"[number % 10U];
         number /= 10U;

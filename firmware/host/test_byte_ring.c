@@ -22,7 +22,8 @@ void test_byte_ring(void)
 
     test_case("order holds over the end and over the wrap of the counts");
     byte_ring_init(&ring, storage, sizeof storage);
-    ring.written = ring.taken = UINT32_MAX - 10U;
+    atomic_init(&ring.written, UINT32_MAX - 10U);
+    atomic_init(&ring.taken, UINT32_MAX - 10U);
     for (int i = 0; i < 1000; i++) {
         const uint8_t bytes[3] = {next_in, (uint8_t)(next_in + 1), (uint8_t)(next_in + 2)};
         if (byte_ring_put(&ring, bytes, 3)) {

@@ -228,10 +228,10 @@ double scene_count(const struct pad_plane *plane, const struct camera *camera, s
     const double pitch = 1.0 / fineness;
     double sums[6] = {0.0};
     double whole = 0.0;
-    double left_px = INFINITY;
-    double right_px = -INFINITY;
-    double top_px = INFINITY;
-    double bottom_px = -INFINITY;
+    double left_px = (double)INFINITY;
+    double right_px = -(double)INFINITY;
+    double top_px = (double)INFINITY;
+    double bottom_px = -(double)INFINITY;
 
     corner_mm = 0.0;
     // The corners of a square that holds the pad: lines of the plane bend in the image, so it is larger than the ring.
