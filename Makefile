@@ -73,7 +73,7 @@ vectors: setup ## Golden input and output of one core from recorded frames: CORE
 	@$(PYTHON) -m scripts.vectors --core "$(CORE)" $(if $(FRAMES),--frames "$(FRAMES)")
 
 .PHONY: lint
-lint: setup ## verilator -Wall, Icarus -Wall and verible on the RTL; ruff on Python; warnings as errors on C
+lint: setup ## verilator, Icarus, yosys and verible on the RTL; clang, clang-tidy, cppcheck on C; ruff on Python
 	@$(PYTHON) -m scripts.lint
 
 .PHONY: formal

@@ -68,7 +68,9 @@ def is_counted(head: str, body: str) -> bool:
         return False
     name = step[1]
     compared = "||" not in parts[1] and re.search(rf"(?<![\w.>]){name}(?: \+ \w+)? [<>]=? |[<>]=? {name}\b", parts[1])
-    moved = re.search(rf"(?<![\w.>]){name}\s*(?:[-+*/%&|^]|<<|>>)?=(?!=)|(?<![\w.>]){name}(?:\+\+|--)|(?:\+\+|--|&){name}\b", body)
+    moved = re.search(
+        rf"(?<![\w.>]){name}\s*(?:[-+*/%&|^]|<<|>>)?=(?!=)|(?<![\w.>]){name}(?:\+\+|--)|(?:\+\+|--|&){name}\b", body
+    )
     return bool(compared) and moved is None
 
 
@@ -85,7 +87,10 @@ def loops(text: str, code: str) -> Iterator[tuple[int, str]]:
             if is_counted(code[start + 1 : end], code[end + 1 : last]):
                 continue
         if not _STATED.search(comment_at(text, match.start())):
-            yield match.start(), "a loop that does not count to a limit; say `// Bounded: ...` or `// Endless: ...` above"
+            yield (
+                match.start(),
+                "a loop that does not count to a limit; say `// Bounded: ...` or `// Endless: ...` above",
+            )
 
 
 def dropped(code: str, names: set[str]) -> Iterator[tuple[int, str]]:
@@ -117,7 +122,9 @@ def check(texts: dict[str, str]) -> list[str]:
     found = []
     for name, code in codes.items():
         text = texts[name]
-        places = [(match.start(), what) for pattern, what in _FORBIDDEN.items() for match in re.finditer(pattern, code, re.M)]
+        places = [
+            (match.start(), what) for pattern, what in _FORBIDDEN.items() for match in re.finditer(pattern, code, re.M)
+        ]
         places += [*loops(text, code), *dropped(code, names)]
         found += [f"{name}:{text[:place].count(chr(10)) + 1}: {what}" for place, what in sorted(places)]
     return found
@@ -126,12 +133,16 @@ def check(texts: dict[str, str]) -> list[str]:
 def main() -> int:
     """Entry point: files, or all of the firmware that runs on the board."""
     parser = ArgumentParser(prog="python -m scripts.c_rules", description=__doc__)
-    parser.add_argument("files", nargs="*", type=Path, help="C sources; all of firmware/ that runs on the board if none")
+    parser.add_argument(
+        "files", nargs="*", type=Path, help="C sources; all of firmware/ that runs on the board if none"
+    )
     files = parser.parse_args().files
     files = files or sorted(path for folder in FOLDERS for path in (ROOT / "firmware" / folder).glob("*.[ch]"))
     if absent := [str(path) for path in files if not path.is_file()]:
         raise UserError(f"{absent[0]} is not a file.")
-    found = check({str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path): path.read_text() for path in files})
+    found = check(
+        {str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path): path.read_text() for path in files}
+    )
     print("\n".join(found) if found else f"{len(files)} files keep the rules")
     return 1 if found else 0
 

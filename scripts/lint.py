@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the RTL and of the Python code; the firmware is compiled with warnings as errors wherever it is built."""
+"""Checks of the RTL, of the firmware's C and of the Python code."""
 
 import os
-import shutil
-import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
-from scripts.errors import ArgumentParser, UserError, run_main
+from scripts.errors import ArgumentParser, run_main
+from scripts.lint_firmware import lint_firmware
+from scripts.lint_run import ROOT, need, run
 from scripts.signoff import leave
 
-ROOT = Path(__file__).resolve().parent.parent
 WAIVERS = ROOT / "scripts" / "lint" / "verilator.vlt"
 VERIBLE_RULES = ROOT / "scripts" / "lint" / "verible.rules"
 
@@ -32,29 +30,6 @@ def yosys_script(top: str, sources: list[str]) -> str:
         "select -assert-none t:$dlatch t:$adlatch t:$dlatchsr",
     ]
     return "; ".join(f"tee -q -o {os.devnull} {step}" for step in steps)
-
-
-def need(tool: str) -> str:
-    """Path of a tool.
-
-    Raises:
-        UserError: The tool is not on PATH.
-    """
-    path = shutil.which(tool, path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
-    if path is None:
-        raise UserError(f"{tool} is not installed: run `make setup`.")
-    return path
-
-
-def run(label: str, command: list[str], silent_is_clean: bool = True) -> bool:
-    """Run one check from the project root and print what it says; True when it is clean."""
-    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    output = (result.stdout + result.stderr).strip()
-    clean = result.returncode == 0 and not (silent_is_clean and output)
-    print(f"{'ok  ' if clean else 'BAD '} {label}", flush=True)
-    if not clean:
-        print(output)
-    return clean
 
 
 def cores() -> dict[str, tuple[str, list[str]]]:
@@ -102,7 +77,7 @@ def main() -> int:
     """Entry point of `make lint`."""
     parser = ArgumentParser(prog="make lint", description=__doc__)
     parser.parse_args()
-    results = [lint_verilog(), lint_python()]
+    results = [lint_verilog(), lint_firmware(), lint_python()]
     if not all(results):
         print("touchdown: lint found what is printed above; mend it or waive it with a reason.", file=sys.stderr)
         return 1

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts import lint
+from scripts import lint, lint_firmware
 
 FAULTS = {
     "latch": "always @* if (en) q = a;",
@@ -23,6 +23,8 @@ def test_lint_is_clean() -> None:
     assert run.returncode == 0, run.stdout + run.stderr
     for core in lint.cores():
         assert f"ok   yosys {core}\n" in run.stdout
+    for tool in (*lint_firmware.TOOLS.values(), "c rules", "ruff check"):
+        assert f"ok   {tool}\n" in run.stdout
 
 
 @pytest.mark.parametrize("fault", FAULTS)
