@@ -46,6 +46,7 @@ class Program:
         symbols: address of each name.
         source_of: the function of the source, before inlining, that an instruction belongs to.
         usage: (name, bytes, kind) for each function in the compiler's .su files.
+        taken: names of all whose address is taken.
         table: `firmware/stack.toml`.
     """
 
@@ -53,6 +54,7 @@ class Program:
     symbols: dict[str, int]
     source_of: dict[int, str]
     usage: list[tuple[str, int, str]]
+    taken: set[str]
     table: dict
     functions: dict[int, Function] = field(default_factory=dict)
 
@@ -171,6 +173,47 @@ def check_usage(program: Program) -> int:
     return compared
 
 
+def addresses_taken(listing: str) -> set[str]:
+    """Names of the functions whose address some code or data holds, from `objdump -t -r` of the objects.
+
+    A jump table holds places of its own section, which are left out, as debug information is.
+    """
+    shared: set[str] = set()
+    held: list[tuple[str, set[str]]] = []
+    own: set[str] = set()
+    section = ""
+    for line in listing.splitlines():
+        if "file format" in line:
+            own = set()
+        elif (header := re.match(r"RELOCATION RECORDS FOR \[(.+)\]", line)) is not None:
+            section = header[1]
+        elif (symbol := re.match(r"[0-9a-f]{8} (.).{5}F \S+\s+[0-9a-f]+ (?:\.hidden )?(\S+)$", line)) is not None:
+            (own if symbol[1] == "l" else shared).add(symbol[2])
+        elif (entry := re.match(r"\w+ R_ARM_(?:ABS32|MOVW_ABS_NC|REL32|TARGET1)\s+([^+\s]+)", line)) is not None:
+            aside = entry[1] == section or section.startswith((".debug", ".ARM.exidx"))
+            held += [] if aside else [(re.sub(r"^\.text\.(?:startup\.)?", "", entry[1]), own)]
+    return {name for name, local in held if name in local or name in shared}
+
+
+def check_pointers(program: Program) -> None:
+    """What is listed under [pointers] is called there, and is all whose address is taken.
+
+    Raises:
+        UserError: it is not.
+    """
+    pointers = program.table["pointers"]
+    listed = {name for names in pointers.values() for name in names}
+    taken = program.taken & {name for name, _, _ in program.usage}
+    if absent := taken - listed:
+        raise UserError(f"the address of {min(absent)} is taken; list who calls it in firmware/stack.toml.")
+    if stale := listed - taken:
+        raise UserError(f"firmware/stack.toml lists {min(stale)} under a pointer, but nothing takes its address.")
+    functions = program.functions.values()
+    met = {program.source_of.get(address, this.name) for this in functions for address, _ in this.indirect}
+    if unmet := pointers.keys() - met:
+        raise UserError(f"firmware/stack.toml lists a pointer call of {min(unmet)}, which makes none.")
+
+
 def check_handlers(program: Program, names: list[str]) -> None:
     """No interrupt handler lets the next interrupt in.
 
@@ -236,23 +279,20 @@ def check(program: Program) -> list[str]:
                 f"{path_text(path)}; make a frame smaller or the stack in firmware/board/touchdown.ld larger."
             )
     compared = check_usage(program)
-    met = {
-        program.source_of.get(address, this.name) for this in program.functions.values() for address, _ in this.indirect
-    }
-    if stale := program.table["pointers"].keys() - met:
-        raise UserError(f"firmware/stack.toml lists a pointer call of {min(stale)}, which makes none.")
+    check_pointers(program)
     lines.append(f"{len(program.functions)} functions, {compared} of them as -fstack-usage says; no recursion")
     return lines
 
 
-def load(elf: Path, usage_files: list[Path], table: Path) -> Program:
-    """Read an ELF, the .su files of its objects and the table.
+def load(elf: Path, objects: list[Path], table: Path) -> Program:
+    """Read an ELF, its objects with the .su files beside them, and the table.
 
     Raises:
         UserError: one of them is absent or does not read.
     """
     if not elf.is_file():
         raise UserError(f"{elf} is absent: run `make firmware`.")
+    usage_files = [path.with_suffix(".su") for path in objects if path.with_suffix(".su").is_file()]
     if not usage_files:
         raise UserError(f"there are no .su files beside {elf}: run `make clean firmware`.")
     disassembly = output_of("objdump", "-d", "--no-show-raw-insn", str(elf))
@@ -266,7 +306,8 @@ def load(elf: Path, usage_files: list[Path], table: Path) -> Program:
         for line in path.read_text().splitlines():
             place, size, kind = line.split("\t")
             usage.append((place.split(":")[-1], int(size), kind))
-    program = Program(disassembly, symbols, {}, usage, tomllib.loads(table.read_text()))
+    taken = addresses_taken(output_of("objdump", "-t", "-r", *map(str, objects)))
+    program = Program(disassembly, symbols, {}, usage, taken, tomllib.loads(table.read_text()))
     pointers = POINTER_CALL.findall(disassembly)
     if pointers:
         # -f -p: one line each, the innermost inlined function.
@@ -283,11 +324,11 @@ def main() -> int:
     parser = ArgumentParser(prog="python -m scripts.stack_bound", description=__doc__)
     parser.add_argument("--elf", type=Path, default=ELF, help="ELF with its objects beside it in arm/")
     options = parser.parse_args()
-    objects = options.elf.parent / "arm"
+    folder = options.elf.parent / "arm"
     # A file left of a source that is gone says nothing.
-    sources = {path: ROOT / "firmware" / path.relative_to(objects).with_suffix("") for path in objects.glob("**/*.su")}
-    usage_files = sorted(path for path, source in sources.items() if source.is_file())
-    print("\n".join(check(load(options.elf, usage_files, TABLE))))
+    sources = {path: ROOT / "firmware" / path.relative_to(folder).with_suffix("") for path in folder.glob("**/*.o")}
+    objects = sorted(path for path, source in sources.items() if source.is_file())
+    print("\n".join(check(load(options.elf, objects, TABLE))))
     return 0
 
 

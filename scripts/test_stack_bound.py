@@ -11,7 +11,7 @@ import pytest
 from firmware.library import BUILD, ROOT, make
 from scripts import stack_bound
 from scripts.errors import UserError
-from scripts.stack_bound import Program, check
+from scripts.stack_bound import Program, addresses_taken, check
 from scripts.stack_frames import FRAME_LIMIT_BYTES, Instruction, taken_bytes
 
 HEAP = re.compile(r"malloc|calloc|realloc|^_*free(_r)?$|sbrk")
@@ -46,7 +46,7 @@ def program(changes: dict[str, list[str]] | None = None, size: int = 200, **tabl
             mnemonic, _, operands = text.format(**shown, here=f"{places[name]:x} <{name}>").partition(" ")
             lines.append(f"  {places[name] + 4 * index:x}:\t{mnemonic}\t{operands}")
     usage = [("main", 24, "static"), ("leaf", 24, "static"), ("handler", 4, "static")]
-    return Program("\n".join(lines), {"low": 0, "high": size}, {}, usage, {**TABLE, **table})
+    return Program("\n".join(lines), {"low": 0, "high": size}, {}, usage, {"handler", "main_data"}, {**TABLE, **table})
 
 
 def test_the_firmware_fits() -> None:
@@ -120,6 +120,47 @@ def test_a_frame_the_compiler_cannot_tell_is_found() -> None:
     planted.usage.append(("other", 16, "dynamic,bounded"))
     with pytest.raises(UserError, match="other takes 16 bytes and more"):
         check(planted)
+
+
+def test_an_address_that_is_taken_and_not_listed_is_found() -> None:
+    planted = program()
+    planted.taken.add("leaf")
+    with pytest.raises(UserError, match="the address of leaf is taken"):
+        check(planted)
+    planted.taken.clear()
+    with pytest.raises(UserError, match="lists handler under a pointer, but nothing takes its address"):
+        check(planted)
+
+
+def test_addresses_are_read_from_relocations() -> None:
+    listing = """
+main.o:     file format elf32-littlearm
+
+SYMBOL TABLE:
+00000000 l     F .text.static	00000018 static
+00000000 g     F .text.main	00000018 main
+00000000         *UND*	00000000 taken
+00000000         *UND*	00000000 keep
+
+RELOCATION RECORDS FOR [.text.main]:
+OFFSET   TYPE              VALUE
+00000008 R_ARM_CALL        called
+00000048 R_ARM_MOVW_ABS_NC taken
+00000048 R_ARM_MOVW_ABS_NC keep
+0000004c R_ARM_ABS32       .text.static+0x00000001
+00000050 R_ARM_ABS32       .text.main
+
+RELOCATION RECORDS FOR [.debug_info]:
+00000010 R_ARM_ABS32       .text.called
+
+other.o:     file format elf32-littlearm
+
+SYMBOL TABLE:
+00000000 l     F .text.keep	00000018 keep
+00000000 g     F .text.taken	00000018 taken
+00000000 g     F .text.called	00000018 called
+"""
+    assert addresses_taken(listing) == {"taken", "static"}
 
 
 def test_a_function_that_is_listed_and_absent_is_found() -> None:
