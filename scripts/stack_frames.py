@@ -87,7 +87,6 @@ def taken_bytes(instruction: Instruction, register_bytes: int = 0) -> int | None
     """
     match = _MOVES.fullmatch(instruction.mnemonic)
     base, operands = match[1] if match else "", instruction.operands
-    taken: int | None = None
     if base in ("push", "vpush", "pop", "vpop"):
         return _list_bytes(operands) * (1 if "push" in base else -1)
     if base in ("srsdb", "rfeia") and operands.startswith("sp!"):
