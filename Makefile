@@ -117,7 +117,7 @@ regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_
 	@$(PYTHON) -m scripts.regmap
 
 .PHONY: firmware
-firmware: setup ## Build build/firmware/touchdown.elf: [CAMERA=file], as make calibrate writes it
+firmware: setup ## Build build/firmware/touchdown.elf: [CAMERA=file] [AUTOPILOT_BAUD=57600] [GROUND_BAUD=115200]
 	@$(MAKE) --no-print-directory -C firmware elf
 
 .PHONY: clean

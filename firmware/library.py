@@ -12,7 +12,6 @@ from golden.generated.landing_regs import THRESHOLD_FACTOR_MASK, THRESHOLD_FACTO
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "firmware"
 AUTOPILOT, GROUND = 0, 1
-BAUD = {AUTOPILOT: 921_600, GROUND: 57_600}
 _WRITE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.POINTER(ctypes.c_uint8), ctypes.c_size_t)
 
 
@@ -61,10 +60,17 @@ class Firmware:
         sent: bytes sent so far, by link.
     """
 
-    def __init__(self, now_us: int = 0) -> None:
+    def __init__(self, now_us: int = 0, bauds: tuple[int, int] = (0, 0)) -> None:
+        """Start it.
+
+        Args:
+            now_us: Time of the start.
+            bauds: Of the wires to autopilot and ground, to which rates fit; 0 = no limit.
+        """
         self._library = ctypes.CDLL(str(BUILD / "libtouchdown.so"))
         self._write = _WRITE(self._collect)  # kept: C holds no reference
         self.sent = {AUTOPILOT: bytearray(), GROUND: bytearray()}
+        self._library.touchdown_set_bauds(*(ctypes.c_uint32(baud) for baud in bauds))
         self._library.touchdown_init(self._write, None, ctypes.c_uint64(now_us))
 
     def _collect(self, _context: int, link: int, data: "ctypes._Pointer[ctypes.c_uint8]", size: int) -> None:

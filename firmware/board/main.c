@@ -61,7 +61,11 @@ static void report_crash(void)
 
 int main(void)
 {
-    static const struct app_port port = {.write = write, .context = NULL};
+    static const struct app_port port = {
+        .write = write,
+        .context = NULL,
+        .baud = {[APP_LINK_AUTOPILOT] = BOARD_AUTOPILOT_BAUD, [APP_LINK_GROUND] = BOARD_GROUND_BAUD},
+    };
 
     gic_init();
     timer_init();

@@ -40,6 +40,11 @@
 #define TIMEOUT 10U
 #define POLL_LIMIT 1000000U
 
+// What waits longer than this to leave is dropped instead. Of the 10 bit times that a byte takes.
+#define WAIT_MS 100U
+#define BITS_A_BYTE 10U
+#define FIFO_DEPTH 64U
+
 #define RX_BYTES 1024U
 #define TX_BYTES 4096U
 
@@ -47,6 +52,7 @@ struct uart {
     uintptr_t base;
     struct byte_ring rx;
     struct byte_ring tx;
+    uint32_t tx_limit; // bytes that may wait in the ring
     uint8_t rx_storage[RX_BYTES];
     uint8_t tx_storage[TX_BYTES];
 };
@@ -98,6 +104,7 @@ void uart_init(enum uart_id id, uint32_t baud)
 
     byte_ring_init(&uart->rx, uart->rx_storage, RX_BYTES);
     byte_ring_init(&uart->tx, uart->tx_storage, TX_BYTES);
+    uart->tx_limit = baud / BITS_A_BYTE * WAIT_MS / 1000U - FIFO_DEPTH;
     register_write(uart->base + INTERRUPT_DISABLE, INTERRUPT_ALL);
     register_write(uart->base + CONTROL, 0U);
     register_write(uart->base + MODE, MODE_8N1);
@@ -120,7 +127,7 @@ bool uart_write(enum uart_id id, const uint8_t *bytes, size_t size)
 {
     struct uart *uart = &uarts[id];
 
-    if (!byte_ring_put(&uart->tx, bytes, size)) {
+    if (byte_ring_count(&uart->tx) + size > uart->tx_limit || !byte_ring_put(&uart->tx, bytes, size)) {
         return false;
     }
     interrupts_disable();

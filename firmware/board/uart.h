@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both UARTs of the PS, 8N1, driven by interrupts through rings. Sending never
-// blocks: a message that does not fit into the ring is dropped whole.
+// blocks: a message that finds no room, or that would leave 100 ms late, is dropped
+// whole.
 #ifndef TOUCHDOWN_UART_H
 #define TOUCHDOWN_UART_H
 
@@ -12,7 +13,7 @@ enum uart_id { UART_0, UART_1, UARTS };
 
 void uart_init(enum uart_id id, uint32_t baud);
 
-// False when the ring has no room for all of it; then nothing is sent.
+// False when it would have to wait too long; then nothing is sent.
 bool uart_write(enum uart_id id, const uint8_t *bytes, size_t size);
 
 size_t uart_read(enum uart_id id, uint8_t *bytes, size_t limit);

@@ -9,11 +9,12 @@
 #include "pad_geometry.h"
 
 #define HEARTBEAT_PERIOD_US 1000000U
-#define DISTANCE_PERIOD_US 50000U
 #define CAMERA_LOST_US 2000000U
 #define COMPLAINT_PERIOD_US 10000000U
 // A few frames: longer ago the pad may be anywhere.
 #define LAST_VIEW_US 100000U
+#define SCAN_MAX_US 50000U // no camera takes longer from its first pixel to its last
+#define US_PER_MS 1000U
 #define PAD_ARRAY_ID 1U
 #define HEALTH_ARRAY_ID 2U
 
@@ -40,7 +41,8 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
 {
     memset(app, 0, sizeof *app);
     links_init(&app->links, port);
-    flight_init(&app->flight, now_us);
+    flight_init(&app->flight, app->links.rates[APP_LINK_AUTOPILOT], now_us);
+    timesync_init(&app->timesync);
     app->fault = fault;
     app->min_area_px = MIN_AREA_START_PX;
     app->detect_options = DETECT_ALL;
@@ -87,6 +89,11 @@ static void send_landing_target(struct app *app, const struct landing_record *re
                                 const struct altitude *altitude)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+
+    if (!rates_frame_is_due(app->links.rates[APP_LINK_AUTOPILOT]->frames_a_message, record->header.frame_number,
+                            &app->last_target_frame)) {
+        return;
+    }
     const struct mavlink_out_target target = {
         .time_us = record->header.start_time_us,
         .right = pad->right_m / pad->depth_m,
@@ -107,6 +114,10 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
     float values[APP_PAD_FIELDS] = {0.0F};
     uint32_t flags = record->header.flags & RECORD_FLAGS;
 
+    if (!rates_frame_is_due(app->links.rates[APP_LINK_GROUND]->frames_a_message, record->header.frame_number,
+                            &app->last_pad_frame)) {
+        return;
+    }
     flags |= altitude->from_lidar ? APP_FLAG_ALTITUDE_LIDAR : 0U;
     flags |= altitude->from_pad ? APP_FLAG_ALTITUDE_PAD : 0U;
     flags |= altitude->lidar_implausible ? APP_FLAG_LIDAR_IMPLAUSIBLE : 0U;
@@ -193,6 +204,14 @@ void app_on_lost_record(struct app *app)
     app->health[APP_HEALTH_RECORDS_REJECTED]++;
 }
 
+// A shutter that rolls exposes line after line: the middle of the picture stands for all of it.
+static uint64_t exposed_us_of(const struct landing_result_header *header)
+{
+    const uint32_t scan_us = header->scan_time_us < SCAN_MAX_US ? header->scan_time_us : SCAN_MAX_US;
+
+    return header->start_time_us + scan_us / 2U;
+}
+
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us)
 {
     struct pad_estimate pad;
@@ -221,6 +240,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     struct camera camera = camera_scaled(&camera_default, (double)record->header.frame_size_width);
     camera.height_px = (double)record->header.frame_size_height;
     adapt_min_area(app, &record->header, &lidar, &camera);
+    const uint64_t exposed_us = exposed_us_of(&record->header);
     struct detect_hint hint = detect_no_hint;
     hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
     // The thresholds are those of the frame before: after a change, a frame's own factor is not theirs yet.
@@ -229,7 +249,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     app->factor_before = record->header.threshold_factor;
     hint.searching = !factor_search_is_usual(factor);
     // Without a fresh attitude the hint stays what it is without any.
-    (void)attitude_tilt(&app->attitude, now_us, &hint.tilt);
+    (void)attitude_tilt(&app->attitude, exposed_us, now_us, &hint.tilt);
     if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
         record->header.start_time_us - app->last_view_us <= LAST_VIEW_US) {
         hint.last = &app->last_view;
@@ -254,7 +274,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
 
     // A prediction is good for a target, not for steering.
     if (track != TRACK_BRIDGED) {
-        flight_on_frame(&app->flight, &app->attitude, found ? &pad : NULL, &altitude, now_us);
+        flight_on_frame(&app->flight, &app->attitude, found ? &pad : NULL, &altitude, exposed_us, now_us);
     }
     if (found) {
         app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
@@ -262,6 +282,19 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude);
     return 0;
+}
+
+static void on_autopilot(struct app *app, const struct mavlink_in_message *message, uint64_t now_us)
+{
+    if (message->kind == MAVLINK_IN_TIMESYNC_ANSWER) {
+        timesync_on_answer(&app->timesync, message->as.timesync.request_ns, message->as.timesync.answer_ns, now_us);
+    }
+    if (message->kind == MAVLINK_IN_ATTITUDE) {
+        const struct mavlink_in_attitude *said = &message->as.attitude;
+        const uint64_t time_us =
+            timesync_to_ours(&app->timesync, (uint64_t)said->time_ms * US_PER_MS, ATTITUDE_MAX_AGE_US, now_us);
+        attitude_set(&app->attitude, (double)said->roll_rad, (double)said->pitch_rad, time_us, now_us);
+    }
 }
 
 void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, size_t size, uint64_t now_us)
@@ -276,11 +309,10 @@ void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, siz
         if (kind == MAVLINK_IN_TIMESYNC_REQUEST) {
             uint8_t reply[MAVLINK_OUT_MAX_BYTES];
             links_send(&app->links, link, reply,
-                       mavlink_out_timesync_reply(&app->links.out[link], now_us, message.as.request_ns, reply));
+                       mavlink_out_timesync_reply(&app->links.out[link], now_us, message.as.timesync.request_ns, reply));
         }
-        if (kind == MAVLINK_IN_ATTITUDE && link == APP_LINK_AUTOPILOT) {
-            attitude_set(&app->attitude, (double)message.as.attitude.roll_rad, (double)message.as.attitude.pitch_rad,
-                         now_us);
+        if (link == APP_LINK_AUTOPILOT && mavlink_in_is_autopilot(&message)) {
+            on_autopilot(app, &message, now_us);
         }
         flight_on_message(&app->flight, &app->links, link, &message, now_us);
     }
@@ -352,6 +384,17 @@ void app_on_complaints(struct app *app, const struct app_complaints *complaints,
     }
 }
 
+static void ask_for_time(struct app *app, uint64_t now_us)
+{
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+    int64_t request_ns;
+
+    if (autopilot_is_heard(&app->flight.autopilot, now_us) && timesync_ask(&app->timesync, now_us, &request_ns)) {
+        links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
+                   mavlink_out_timesync_request(&app->links.out[APP_LINK_AUTOPILOT], request_ns, bytes));
+    }
+}
+
 void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lidar)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
@@ -369,13 +412,14 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
     }
     // "Out of range" would let an autopilot arm with a sensor that is not there.
     app->lidar_worked = app->lidar_worked || (lidar != NULL && lidar->valid);
-    if (lidar != NULL && app->lidar_worked && due(&app->next_distance_us, now_us, DISTANCE_PERIOD_US)) {
+    if (lidar != NULL && app->lidar_worked && due(&app->next_distance_us, now_us, app->links.rates[APP_LINK_AUTOPILOT]->distance_period_us)) {
         links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
                    mavlink_out_distance_sensor(&app->links.out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / 1000U),
                                                fusion_lidar_usable(lidar), lidar->distance_mm, bytes));
     }
     if (app->fault == NULL) {
         watch_camera(app, now_us);
+        ask_for_time(app, now_us);
         flight_tick(&app->flight, &app->links, &app->attitude, lidar, now_us);
     }
 }

@@ -18,6 +18,7 @@
 #include "mavlink_in.h"
 #include "mavlink_out.h"
 #include "record.h"
+#include "timesync.h"
 #include "tracker.h"
 
 // What each element of the ground station's DEBUG_FLOAT_ARRAY "PAD" holds.
@@ -82,8 +83,11 @@ struct app {
     uint64_t next_distance_us;
     uint64_t last_record_us;
     uint32_t last_frame_number; // 0 = none yet
+    uint32_t last_target_frame; // frame numbers of the newest messages; 0 = none yet
+    uint32_t last_pad_frame;
     uint64_t next_complaint_us[APP_COMPLAINTS];
     struct attitude attitude;
+    struct timesync timesync; // with the autopilot
     struct tracker tracker;
     struct pad_view last_view; // of the newest pad that was seen
     uint64_t last_view_us;     // start of its frame

@@ -21,15 +21,15 @@
 
 struct stream_row {
     uint32_t message;
-    uint32_t interval_us;
+    uint32_t interval_us; // 0 = the wire's rates say
     uint32_t missing_after_us;
 };
 
 static const struct stream_row streams[AUTOPILOT_STREAMS] = {
-    [AUTOPILOT_STREAM_ATTITUDE] = {MAVLINK_MSG_ID_ATTITUDE, 20000U, 200000U},
+    [AUTOPILOT_STREAM_ATTITUDE] = {MAVLINK_MSG_ID_ATTITUDE, 0U, 200000U},
     [AUTOPILOT_STREAM_EXTENDED_SYS_STATE] = {MAVLINK_MSG_ID_EXTENDED_SYS_STATE, 200000U, 1000000U},
     [AUTOPILOT_STREAM_SYS_STATUS] = {MAVLINK_MSG_ID_SYS_STATUS, 1000000U, 3000000U},
-    [AUTOPILOT_STREAM_RC_CHANNELS] = {MAVLINK_MSG_ID_RC_CHANNELS, 100000U, 1000000U},
+    [AUTOPILOT_STREAM_RC_CHANNELS] = {MAVLINK_MSG_ID_RC_CHANNELS, 0U, 1000000U},
 };
 
 // The code of a mode in HEARTBEAT.custom_mode, of a profile that is known.
@@ -49,9 +49,17 @@ static uint32_t code_of(enum autopilot_profile profile, enum landing_mode mode)
     return profile == AUTOPILOT_PX4 ? px4[mode] : ardupilot[mode];
 }
 
-void autopilot_init(struct autopilot *autopilot)
+static uint32_t interval_of(const struct autopilot *autopilot, size_t stream)
+{
+    return stream == (size_t)AUTOPILOT_STREAM_ATTITUDE      ? autopilot->rates->attitude_interval_us
+           : stream == (size_t)AUTOPILOT_STREAM_RC_CHANNELS ? autopilot->rates->rc_interval_us
+                                                            : streams[stream].interval_us;
+}
+
+void autopilot_init(struct autopilot *autopilot, const struct rates *rates)
 {
     memset(autopilot, 0, sizeof *autopilot);
+    autopilot->rates = rates;
 }
 
 static void on_heartbeat(struct autopilot *autopilot, const struct mavlink_in_heartbeat *heartbeat, uint64_t now_us)
@@ -116,6 +124,7 @@ void autopilot_on_message(struct autopilot *autopilot, const struct mavlink_in_m
         break;
     case MAVLINK_IN_NOTHING:
     case MAVLINK_IN_TIMESYNC_REQUEST:
+    case MAVLINK_IN_TIMESYNC_ANSWER:
     case MAVLINK_IN_COMMAND:
     case MAVLINK_IN_PARAM_READ:
     case MAVLINK_IN_PARAM_LIST:
@@ -197,7 +206,7 @@ bool autopilot_stream_request(struct autopilot *autopilot, uint64_t now_us, stru
         memset(command, 0, sizeof *command);
         command->command = (uint16_t)MAV_CMD_SET_MESSAGE_INTERVAL;
         command->parameters[0] = (float)streams[i].message;
-        command->parameters[1] = (float)streams[i].interval_us;
+        command->parameters[1] = (float)interval_of(autopilot, i);
         return true;
     }
     return false;

@@ -8,6 +8,7 @@
 
 #include "landing_table.h"
 #include "mavlink_in.h"
+#include "rates.h"
 
 enum autopilot_profile { AUTOPILOT_UNKNOWN, AUTOPILOT_ARDUPILOT, AUTOPILOT_PX4 };
 
@@ -25,6 +26,7 @@ enum autopilot_stream {
 #define AUTOPILOT_REQUESTS_MAX 5U
 
 struct autopilot {
+    const struct rates *rates; // of its wire
     enum autopilot_profile profile;
     bool heard;
     uint64_t heartbeat_us;
@@ -52,7 +54,7 @@ struct autopilot_command {
     float parameters[7];
 };
 
-void autopilot_init(struct autopilot *autopilot);
+void autopilot_init(struct autopilot *autopilot, const struct rates *rates);
 
 // Takes what the autopilot said.
 void autopilot_on_message(struct autopilot *autopilot, const struct mavlink_in_message *message, uint64_t now_us);

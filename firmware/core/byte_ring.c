@@ -38,8 +38,13 @@ size_t byte_ring_take(struct byte_ring *ring, uint8_t *bytes, size_t limit)
     return count;
 }
 
+size_t byte_ring_count(const struct byte_ring *ring)
+{
+    return atomic_load_explicit(&ring->written, memory_order_acquire) -
+           atomic_load_explicit(&ring->taken, memory_order_acquire);
+}
+
 bool byte_ring_is_empty(const struct byte_ring *ring)
 {
-    return atomic_load_explicit(&ring->written, memory_order_acquire) ==
-           atomic_load_explicit(&ring->taken, memory_order_acquire);
+    return byte_ring_count(ring) == 0U;
 }

@@ -12,7 +12,6 @@
 #define RAD_PER_DEG 0.017453292519943295
 #define US_PER_MS 1000U
 #define MM_PER_M 1000.0
-#define VELOCITY_PERIOD_US 33000U
 #define DISARM_AFTER_US 5000000U
 #define DISARM_PERIOD_US 1000000U
 // What a switch gives in its two places, with room for trims; between them nothing changes.
@@ -21,10 +20,10 @@
 #define NO_CHANNEL_US 65535U
 #define CHANNEL_LEAST_US 800U // less is a receiver without a transmitter
 
-void flight_init(struct flight *flight, uint64_t now_us)
+void flight_init(struct flight *flight, const struct rates *rates, uint64_t now_us)
 {
     memset(flight, 0, sizeof *flight);
-    autopilot_init(&flight->autopilot);
+    autopilot_init(&flight->autopilot, rates);
     landing_init(&flight->landing, now_us);
     parameters_init(&flight->parameters);
     ground_init(flight);
@@ -56,11 +55,6 @@ static void on_rc(struct flight *flight, const uint16_t *channels_us)
     }
 }
 
-static bool is_autopilot(const struct mavlink_in_message *message)
-{
-    return message->system == MAVLINK_OUT_SYSTEM_ID && message->component == (uint8_t)MAV_COMP_ID_AUTOPILOT1;
-}
-
 void flight_on_message(struct flight *flight, struct links *links, enum app_link link,
                        const struct mavlink_in_message *message, uint64_t now_us)
 {
@@ -79,27 +73,30 @@ void flight_on_message(struct flight *flight, struct links *links, enum app_link
         }
         break;
     case MAVLINK_IN_RC:
-        if (link == APP_LINK_AUTOPILOT && is_autopilot(message)) {
+        if (link == APP_LINK_AUTOPILOT && mavlink_in_is_autopilot(message)) {
             on_rc(flight, message->as.rc_us);
         }
         break;
     case MAVLINK_IN_NOTHING:
     case MAVLINK_IN_TIMESYNC_REQUEST:
+    case MAVLINK_IN_TIMESYNC_ANSWER:
     case MAVLINK_IN_ATTITUDE:
     case MAVLINK_IN_BATTERY:
     case MAVLINK_IN_LANDED_STATE:
     case MAVLINK_IN_ACK:
         break;
     }
-    if (link == APP_LINK_AUTOPILOT && is_autopilot(message)) {
+    if (link == APP_LINK_AUTOPILOT && mavlink_in_is_autopilot(message)) {
         autopilot_on_message(&flight->autopilot, message, now_us);
     }
 }
 
 void flight_on_frame(struct flight *flight, const struct attitude *attitude, const struct pad_estimate *pad,
-                     const struct altitude *altitude, uint64_t now_us)
+                     const struct altitude *altitude, uint64_t exposed_us, uint64_t now_us)
 {
     struct landing_known *known = &flight->known;
+    double roll_rad = attitude->roll_rad;
+    double pitch_rad = attitude->pitch_rad;
 
     known->record_us = now_us;
     if (pad == NULL) {
@@ -110,7 +107,9 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
 
     known->pad_us = now_us;
     known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;
-    known->pad = steering_level(attitude->roll_rad, attitude->pitch_rad, pad->right_m * scale, pad->forward_m * scale,
+    // Without a fresh attitude no one steers by it.
+    (void)attitude_at(attitude, exposed_us, now_us, &roll_rad, &pitch_rad);
+    known->pad = steering_level(roll_rad, pitch_rad, pad->right_m * scale, pad->forward_m * scale,
                                 pad->depth_m * scale, RAD_PER_DEG * pad->angle_deg);
     if (!altitude->lidar_implausible) {
         known->agreed_us = now_us;
@@ -145,7 +144,7 @@ static void send_velocity(struct flight *flight, struct links *links, uint64_t n
 
     links_send(links, APP_LINK_AUTOPILOT, bytes,
                mavlink_out_velocity(&links->out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / US_PER_MS), &velocity, bytes));
-    flight->next_velocity_us = now_us + VELOCITY_PERIOD_US;
+    flight->next_velocity_us = now_us + links->rates[APP_LINK_AUTOPILOT]->velocity_period_us;
 }
 
 static void ask_to_disarm(struct flight *flight, struct links *links, uint64_t now_us)

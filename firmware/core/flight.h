@@ -43,15 +43,16 @@ struct flight {
     uint64_t next_said_us;
 };
 
-void flight_init(struct flight *flight, uint64_t now_us);
+// `rates` are those of the autopilot's wire.
+void flight_init(struct flight *flight, const struct rates *rates, uint64_t now_us);
 
 // What arrived on a link; messages that are not of the flight are left alone.
 void flight_on_message(struct flight *flight, struct links *links, enum app_link link,
                        const struct mavlink_in_message *message, uint64_t now_us);
 
-// Each good record: `pad` is what was measured in it, NULL when none was.
+// Each good record: `pad` is what was measured in it, NULL when none was; `exposed_us` is when.
 void flight_on_frame(struct flight *flight, const struct attitude *attitude, const struct pad_estimate *pad,
-                     const struct altitude *altitude, uint64_t now_us);
+                     const struct altitude *altitude, uint64_t exposed_us, uint64_t now_us);
 
 // To be called with each tick. `lidar` is NULL without one.
 void flight_tick(struct flight *flight, struct links *links, const struct attitude *attitude,

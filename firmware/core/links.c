@@ -7,6 +7,8 @@ void links_init(struct links *links, const struct app_port *port)
 {
     memset(links, 0, sizeof *links);
     links->port = *port;
+    links->rates[APP_LINK_AUTOPILOT] = rates_of(RATES_AUTOPILOT, port->baud[APP_LINK_AUTOPILOT]);
+    links->rates[APP_LINK_GROUND] = rates_of(RATES_GROUND, port->baud[APP_LINK_GROUND]);
 }
 
 void links_send(struct links *links, enum app_link link, const uint8_t *bytes, size_t size)

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "mavlink_out.h"
+#include "rates.h"
 
 enum app_link { APP_LINK_AUTOPILOT, APP_LINK_GROUND, APP_LINKS };
 
@@ -16,11 +17,13 @@ struct app_port {
     // sends a part.
     bool (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
     void *context;
+    uint32_t baud[APP_LINKS]; // 0 = no wire that would set a limit
 };
 
 struct links {
     struct app_port port;
     struct mavlink_out out[APP_LINKS];
+    const struct rates *rates[APP_LINKS];
     uint32_t dropped[APP_LINKS]; // messages that found no room on the wire
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mavlink_in.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 #include "mavlink_out.h"
@@ -20,12 +19,13 @@ static bool is_for_us(uint8_t system, uint8_t component)
 
 static enum mavlink_in_kind read_timesync(const mavlink_message_t *received, struct mavlink_in_message *message)
 {
+    mavlink_timesync_t timesync;
+
+    // MAVLink's single getters read 64 bits from where they lie, aligned or not.
+    mavlink_msg_timesync_decode(received, &timesync);
     // tc1 is 0 in a request and the answerer's time in a reply.
-    if (mavlink_msg_timesync_get_tc1(received) != 0) {
-        return MAVLINK_IN_NOTHING;
-    }
-    message->as.request_ns = mavlink_msg_timesync_get_ts1(received);
-    return MAVLINK_IN_TIMESYNC_REQUEST;
+    message->as.timesync = (struct mavlink_in_timesync){.request_ns = timesync.ts1, .answer_ns = timesync.tc1};
+    return message->as.timesync.answer_ns != 0 ? MAVLINK_IN_TIMESYNC_ANSWER : MAVLINK_IN_TIMESYNC_REQUEST;
 }
 
 static enum mavlink_in_kind read_heartbeat(const mavlink_message_t *received, struct mavlink_in_message *message)
@@ -42,6 +42,7 @@ static enum mavlink_in_kind read_heartbeat(const mavlink_message_t *received, st
 static enum mavlink_in_kind read_attitude(const mavlink_message_t *received, struct mavlink_in_message *message)
 {
     message->as.attitude = (struct mavlink_in_attitude){
+        .time_ms = mavlink_msg_attitude_get_time_boot_ms(received),
         .roll_rad = mavlink_msg_attitude_get_roll(received),
         .pitch_rad = mavlink_msg_attitude_get_pitch(received),
     };
@@ -160,6 +161,11 @@ static enum mavlink_in_kind read(const mavlink_message_t *received, struct mavli
     default:
         return MAVLINK_IN_NOTHING;
     }
+}
+
+bool mavlink_in_is_autopilot(const struct mavlink_in_message *message)
+{
+    return message->system == MAVLINK_OUT_SYSTEM_ID && message->component == (uint8_t)MAV_COMP_ID_AUTOPILOT1;
 }
 
 enum mavlink_in_kind mavlink_in_byte(struct mavlink_in *in, uint8_t byte, struct mavlink_in_message *message)

@@ -4,6 +4,7 @@
 #ifndef TOUCHDOWN_MAVLINK_IN_H
 #define TOUCHDOWN_MAVLINK_IN_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include <common/mavlink.h>
@@ -19,6 +20,7 @@ struct mavlink_in {
 enum mavlink_in_kind {
     MAVLINK_IN_NOTHING,
     MAVLINK_IN_TIMESYNC_REQUEST,
+    MAVLINK_IN_TIMESYNC_ANSWER,
     MAVLINK_IN_HEARTBEAT,
     MAVLINK_IN_ATTITUDE,
     MAVLINK_IN_BATTERY,
@@ -38,7 +40,13 @@ struct mavlink_in_heartbeat {
     uint8_t base_mode;
 };
 
+struct mavlink_in_timesync {
+    int64_t request_ns; // the asker's time
+    int64_t answer_ns;  // the answerer's, of an answer
+};
+
 struct mavlink_in_attitude {
+    uint32_t time_ms; // since the autopilot's start
     float roll_rad;  // right side down is positive
     float pitch_rad; // nose up is positive
 };
@@ -65,7 +73,7 @@ struct mavlink_in_message {
     uint8_t system; // of the sender
     uint8_t component;
     union {
-        int64_t request_ns; // of a TIMESYNC request
+        struct mavlink_in_timesync timesync;
         struct mavlink_in_heartbeat heartbeat;
         struct mavlink_in_attitude attitude;
         int8_t battery_percent; // -1 = not known
@@ -78,6 +86,9 @@ struct mavlink_in_message {
 };
 
 void mavlink_in_init(struct mavlink_in *in);
+
+// True when the autopilot of our vehicle sent it.
+bool mavlink_in_is_autopilot(const struct mavlink_in_message *message);
 
 // Takes one byte. Says what it completes, the same as `message->kind`; the fields of that kind are then set.
 enum mavlink_in_kind mavlink_in_byte(struct mavlink_in *in, uint8_t byte, struct mavlink_in_message *message);

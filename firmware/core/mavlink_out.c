@@ -176,12 +176,22 @@ size_t mavlink_out_parameter(struct mavlink_out *out, const char *name, float va
     return finish(out, &status, &message, bytes);
 }
 
-size_t mavlink_out_timesync_reply(struct mavlink_out *out, uint64_t now_us, int64_t request_ns, uint8_t *bytes)
+static size_t timesync(struct mavlink_out *out, int64_t answer_ns, int64_t request_ns, uint8_t *bytes)
 {
     mavlink_status_t status = begin(out);
     mavlink_message_t message;
 
-    mavlink_msg_timesync_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message,
-                                     (int64_t)(now_us * 1000U), request_ns);
+    mavlink_msg_timesync_pack_status(MAVLINK_OUT_SYSTEM_ID, MAVLINK_OUT_COMPONENT_ID, &status, &message, answer_ns,
+                                     request_ns);
     return finish(out, &status, &message, bytes);
+}
+
+size_t mavlink_out_timesync_request(struct mavlink_out *out, int64_t request_ns, uint8_t *bytes)
+{
+    return timesync(out, 0, request_ns, bytes);
+}
+
+size_t mavlink_out_timesync_reply(struct mavlink_out *out, uint64_t now_us, int64_t request_ns, uint8_t *bytes)
+{
+    return timesync(out, (int64_t)(now_us * 1000U), request_ns, bytes);
 }

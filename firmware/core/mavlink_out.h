@@ -73,6 +73,8 @@ size_t mavlink_out_velocity(struct mavlink_out *out, uint32_t time_ms, const str
 size_t mavlink_out_parameter(struct mavlink_out *out, const char *name, float value, uint16_t index, uint16_t count,
                              uint8_t *bytes);
 
+size_t mavlink_out_timesync_request(struct mavlink_out *out, int64_t request_ns, uint8_t *bytes);
+
 size_t mavlink_out_timesync_reply(struct mavlink_out *out, uint64_t now_us, int64_t request_ns, uint8_t *bytes);
 
 #endif

@@ -8,6 +8,7 @@
 static struct app app;
 static struct landing_record record;
 static touchdown_write write_bytes;
+static uint32_t bauds[APP_LINKS];
 
 static bool forward(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
@@ -15,9 +16,19 @@ static bool forward(void *context, enum app_link link, const uint8_t *bytes, siz
     return true;
 }
 
+void touchdown_set_bauds(uint32_t autopilot, uint32_t ground)
+{
+    bauds[APP_LINK_AUTOPILOT] = autopilot;
+    bauds[APP_LINK_GROUND] = ground;
+}
+
 void touchdown_init(touchdown_write write, void *context, uint64_t now_us)
 {
-    const struct app_port port = {.write = forward, .context = context};
+    const struct app_port port = {
+        .write = forward,
+        .context = context,
+        .baud = {[APP_LINK_AUTOPILOT] = bauds[APP_LINK_AUTOPILOT], [APP_LINK_GROUND] = bauds[APP_LINK_GROUND]},
+    };
 
     write_bytes = write;
     app_init(&app, &port, now_us, NULL);

@@ -13,6 +13,9 @@ enum touchdown_link { TOUCHDOWN_AUTOPILOT = 0, TOUCHDOWN_GROUND = 1 }; // UART0,
 // Called with one whole MAVLink message at a time, from within the calls below.
 typedef void (*touchdown_write)(void *context, int link, const uint8_t *bytes, size_t size);
 
+// How fast the wires of the next touchdown_init are, in baud; at first, and with 0, without a limit.
+void touchdown_set_bauds(uint32_t autopilot, uint32_t ground);
+
 // All times are microseconds since reset of the hardware, and never go back.
 void touchdown_init(touchdown_write write, void *context, uint64_t now_us);
 

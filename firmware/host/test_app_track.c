@@ -30,6 +30,10 @@ static mavlink_landing_target_t target;
 static int arrays;
 static float array[58];
 
+// The autopilot: it answers TIMESYNC when it does, its clock ahead of ours by so much.
+static bool answers;
+static int64_t asked_ns;
+
 static bool take(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
     static mavlink_message_t assembling;
@@ -47,6 +51,11 @@ static bool take(void *context, enum app_link link, const uint8_t *bytes, size_t
             CHECK(link == APP_LINK_AUTOPILOT);
             targets++;
             mavlink_msg_landing_target_decode(&message, &target);
+        } else if (message.msgid == MAVLINK_MSG_ID_TIMESYNC) {
+            mavlink_timesync_t timesync;
+            mavlink_msg_timesync_decode(&message, &timesync);
+            CHECK(link == APP_LINK_AUTOPILOT && timesync.tc1 == 0);
+            asked_ns = timesync.ts1;
         } else if (message.msgid == MAVLINK_MSG_ID_DEBUG_FLOAT_ARRAY) {
             CHECK(link == APP_LINK_GROUND);
             arrays++;
@@ -237,8 +246,89 @@ static void test_attitude_of_the_autopilot(void)
     NEAR((double)array[APP_PAD_DOUBT], alone, 0.0);
 }
 
+#define AHEAD_US 7000000U
+#define LATE_US 10000U
+#define SCAN_US 16000U
+
+static void hear(mavlink_message_t *message)
+{
+    uint8_t bytes[MAVLINK_MAX_PACKET_LEN];
+
+    app_on_bytes(&app, APP_LINK_AUTOPILOT, bytes, mavlink_msg_to_send_buffer(bytes, message), now_us);
+}
+
+static void answer_time(void)
+{
+    mavlink_message_t message;
+
+    if (answers && asked_ns != 0) {
+        mavlink_msg_timesync_pack(1, 1, &message, (int64_t)(now_us + AHEAD_US) * 1000, asked_ns);
+        hear(&message);
+    }
+    asked_ns = 0;
+}
+
+// How far the pad, level, is from where it is, after 4 s of rolling to and fro at 1 rad/s; ATTITUDE arrives late.
+static double off_m_while_rolling(void)
+{
+    static struct landing_record record;
+    mavlink_message_t message;
+    double off_m = 0.0;
+
+    start();
+    for (unsigned ms = 0U; ms < 4000U; ms++) {
+        now_us += 1000U;
+        // Roll is a triangle between -0.1 and 0.1 rad.
+        const uint64_t sampled_us = now_us - LATE_US;
+        const uint64_t exposed_us = now_us - SCAN_US / 2U;
+        const double roll_rad = fabs(fmod(1e-6 * (double)sampled_us, 0.4) - 0.2) - 0.1;
+        if (ms % 1000U == 0U) {
+            mavlink_msg_heartbeat_pack(1, 1, &message, 2, MAV_AUTOPILOT_ARDUPILOTMEGA, 0, 0, 0);
+            hear(&message);
+        }
+        if (ms % 20U == 0U) {
+            mavlink_msg_attitude_pack(1, 1, &message, (uint32_t)((sampled_us + AHEAD_US) / 1000U), (float)roll_rad,
+                                      0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+            hear(&message);
+        }
+        app_tick(&app, now_us, NULL);
+        answer_time();
+        // In the middle of a side of the triangle.
+        if (ms == 3900U) {
+            const double true_rad = fabs(fmod(1e-6 * (double)exposed_us, 0.4) - 0.2) - 0.1;
+            const struct scene scene = {.height_m = 1.0, .right_m = 0.1, .roll_deg = true_rad / RADIANS_PER_DEGREE};
+            scene_clear(&record);
+            scene_paint_pad(&record, &scene);
+            record.header.frame_number = 1U;
+            record.header.start_time_us = now_us - SCAN_US;
+            record.header.scan_time_us = SCAN_US;
+            CHECK(app_on_record(&app, &record, sizeof record, now_us) == 0);
+            CHECK(app.flight.known.pad_row == 1U);
+            off_m = fabs(app.flight.known.pad.right_m - scene.right_m);
+        }
+    }
+    return off_m;
+}
+
+static void test_attitude_at_exposure(void)
+{
+    uint32_t round_trip_us;
+
+    test_case("at 1 rad/s, with clocks that are known to each other, the pad stays where it is");
+    answers = true;
+    const double known_m = off_m_while_rolling();
+    CHECK(timesync_is_known(&app.timesync, now_us, &round_trip_us) && round_trip_us == 0U);
+    CHECK(known_m < 0.003);
+    test_case("without, it moves by the 10 ms that ATTITUDE was late");
+    answers = false;
+    const double unknown_m = off_m_while_rolling();
+    CHECK(!timesync_is_known(&app.timesync, now_us, &round_trip_us));
+    NEAR(unknown_m, 0.010, 0.003);
+}
+
 void test_app_track(void)
 {
+    test_attitude_at_exposure();
     scene_clear(&with_pad);
     scene_paint_pad(&with_pad, &near_scene);
     scene_clear(&elsewhere);

@@ -30,14 +30,14 @@ static void acknowledge(uint16_t of, uint8_t result)
 
 static void start(uint8_t kind, uint32_t custom_mode)
 {
-    autopilot_init(&autopilot);
+    autopilot_init(&autopilot, rates_of(RATES_AUTOPILOT, 0U));
     heartbeat(kind, custom_mode, MAV_MODE_FLAG_SAFETY_ARMED, SECOND);
 }
 
 static void test_heard(void)
 {
     test_case("silence");
-    autopilot_init(&autopilot);
+    autopilot_init(&autopilot, rates_of(RATES_AUTOPILOT, 0U));
     CHECK(!autopilot_is_heard(&autopilot, 0U));
     start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
     CHECK(autopilot_is_heard(&autopilot, SECOND + AUTOPILOT_SILENT_US));
@@ -164,7 +164,7 @@ static void test_streams(void)
     unsigned asked = 0U;
 
     test_case("nothing is asked of one that is not there");
-    autopilot_init(&autopilot);
+    autopilot_init(&autopilot, rates_of(RATES_AUTOPILOT, 0U));
     CHECK(!autopilot_stream_request(&autopilot, SECOND, &command));
     test_case("all four are asked for, once a second each, until they come");
     start(MAV_AUTOPILOT_PX4, 0U);

@@ -17,7 +17,7 @@ static struct landing_known known;
 static void all_well(uint64_t now_us)
 {
     memset(&known, 0, sizeof known);
-    autopilot_init(&autopilot);
+    autopilot_init(&autopilot, rates_of(RATES_AUTOPILOT, 0U));
     autopilot.profile = AUTOPILOT_ARDUPILOT;
     autopilot.heard = true;
     autopilot.armed = true;

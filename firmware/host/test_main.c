@@ -57,10 +57,12 @@ int main(void)
     test_pad_fit();
     test_pad_view();
     test_parameters();
+    test_rates();
     test_record();
     test_record_torn();
     test_shapes();
     test_steering();
+    test_timesync();
     test_tracker();
     test_uart();
     test_uart_baud();
