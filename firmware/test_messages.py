@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from firmware.library import AUTOPILOT, BAUD, GROUND, Firmware, make
+from firmware.library import AUTOPILOT, GROUND, Firmware, make
 from golden import result_writer
 from golden.chain import Settings
 from golden.generated.landing_regs import OBJECT_DTYPE
@@ -247,13 +247,16 @@ def test_timesync_is_answered(firmware: Firmware) -> None:
     assert firmware.take(GROUND)[0].get_type() == "STATUSTEXT"
 
 
-def test_links_carry_the_load() -> None:
-    """A second of full traffic fits into both wires with a tenth to spare on the slower one."""
-    firmware = Firmware()
-    record = record_of(Pose(1.0), altitude_valid=1, altitude_mm=1000)
-    for now_us in range(0, 1_000_000, 1000):
+def test_time_is_asked_for(firmware: Firmware) -> None:
+    """Once a second from the first HEARTBEAT of an autopilot on; nothing is asked of a wire without one."""
+    autopilot = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+    beat = mavlink.MAVLink_heartbeat_message(2, mavlink.MAV_AUTOPILOT_PX4, 0, 0, 4, 3)
+    firmware.tick(1_000_000)
+    assert not [message for message in firmware.take(AUTOPILOT) if message.get_type() == "TIMESYNC"]
+    for now_us in range(2_000_000, 5_000_000, 1000):
+        if now_us % 1_000_000 == 0:
+            firmware.on_bytes(AUTOPILOT, bytes(beat.pack(autopilot)), now_us)
         firmware.tick(now_us)
-    for number in range(1, 61):
-        assert firmware.on_record(record[:60] + number.to_bytes(4, "little") + record[64:]) == 0
-    for link, baud in BAUD.items():
-        assert len(firmware.sent[link]) * 10 < 0.9 * baud, f"link {link}: {len(firmware.sent[link])} bytes a second"
+    asked = [message for message in firmware.take(AUTOPILOT) if message.get_type() == "TIMESYNC"]
+    assert [(message.tc1, message.ts1) for message in asked] == [(0, second * 10**9) for second in (2, 3, 4)]
+    assert not [message for message in firmware.take(GROUND) if message.get_type() == "TIMESYNC"]

@@ -9,14 +9,22 @@
 #include "gic.h"
 #include "keep.h"
 #include "landing_hw.h"
+#include "stack.h"
 #include "timer.h"
 #include "uart.h"
+#include "vitals.h"
+#include "watchdog.h"
 
 #define READ_BYTES 64U
 #define COMPLAINTS_PERIOD_US 100000U
+#define VITALS_PERIOD_US 1000000U
+
+_Static_assert((int)UARTS == (int)VITALS_WIRES, "each UART is a wire that is watched");
 
 static struct app app;
 static struct landing_record record;
+static struct vitals vitals;
+static bool has_hardware;
 
 static enum uart_id uart_of(enum app_link link)
 {
@@ -49,14 +57,97 @@ static void sleep_until_interrupt(void)
     interrupts_enable();
 }
 
-static void report_crash(void)
+static uint64_t clock_us(void)
+{
+    return has_hardware ? landing_hw_time_us() : timer_now_us();
+}
+
+// Why the run before this one ended, if not by its power.
+static void report_restart(void)
 {
     uint32_t kind;
     uint32_t address;
+    // Asked in any case: the note must not be there for the next start. After a crash the watchdog is what restarts.
+    const bool bitten = watchdog_has_bitten();
 
     if (crash_take(&keep.crash, &kind, &address)) {
         app_on_crash(&app, kind, address);
+    } else if (bitten) {
+        app_on_watchdog(&app);
     }
+}
+
+static void take_frame(uint64_t now_us)
+{
+    const int size = landing_hw_take_frame(&record);
+
+    if (size > 0) {
+        (void)app_on_record(&app, &record, (size_t)size, now_us);
+        landing_hw_adapt(app_min_area_px(&app), app_threshold_register(&app));
+        vitals_frame(&vitals, now_us, clock_us());
+    } else {
+        app_on_lost_record(&app);
+    }
+}
+
+static void tick(uint64_t now_us)
+{
+    static uint64_t next_complaints_us;
+    static uint64_t next_vitals_us;
+
+    if (now_us >= next_vitals_us) {
+        const struct app_vitals own = {
+            .stack_used_bytes = stack_used_bytes(),
+            .busy_permille = vitals_busy_permille(&vitals, now_us),
+            .frame_worst_us = vitals.frame_worst_us,
+        };
+        app_on_vitals(&app, &own);
+        next_vitals_us = now_us + VITALS_PERIOD_US;
+    }
+    if (!has_hardware) {
+        app_tick(&app, now_us, NULL);
+        return;
+    }
+    const struct lidar_reading lidar = landing_hw_lidar();
+
+    if (now_us >= next_complaints_us) {
+        const struct app_complaints complaints = landing_hw_complaints();
+        app_on_complaints(&app, &complaints, now_us);
+        next_complaints_us = now_us + COMPLAINTS_PERIOD_US;
+    }
+    app_tick(&app, now_us, &lidar);
+}
+
+static void feed_watchdog(uint64_t now_us)
+{
+    struct vitals_signs signs = {.now_us = now_us, .ticks = timer_ticks()};
+
+    for (int i = 0; i < UARTS; i++) {
+        signs.wires[i].waiting = uart_is_sending((enum uart_id)i);
+        signs.wires[i].sent = uart_sent((enum uart_id)i);
+    }
+    if (vitals_may_feed(&vitals, &signs)) {
+        watchdog_feed();
+    }
+}
+
+static void round_of_main_loop(void)
+{
+    const uint64_t woke_us = clock_us();
+    uint64_t now_us = woke_us;
+
+    if (landing_hw_frame_pending()) {
+        take_frame(now_us);
+        // A record takes long enough to make TIMESYNC's answer late.
+        now_us = clock_us();
+    }
+    read(APP_LINK_AUTOPILOT, now_us);
+    read(APP_LINK_GROUND, now_us);
+    tick(now_us);
+    (void)app_parameters_to_keep(&app, keep.parameters);
+    now_us = clock_us();
+    feed_watchdog(now_us);
+    vitals_round(&vitals, woke_us, now_us);
 }
 
 int main(void)
@@ -74,43 +165,18 @@ int main(void)
     interrupts_enable();
 
     const char *fault = landing_hw_fault();
-    const bool has_hardware = fault == NULL;
-    app_init(&app, &port, has_hardware ? landing_hw_time_us() : timer_now_us(), fault);
-    report_crash();
+    has_hardware = fault == NULL;
+    app_init(&app, &port, clock_us(), fault);
+    report_restart();
     app_load_parameters(&app, keep.parameters, sizeof keep.parameters);
     if (has_hardware) {
         landing_hw_start(app_min_area_px(&app), app_threshold_register(&app));
     }
-    uint64_t next_complaints_us = 0;
+    vitals_init(&vitals, clock_us());
+    watchdog_start();
     // Endless: the main loop; each turn ends in a sleep of at most one tick.
     for (;;) {
-        uint64_t now_us = has_hardware ? landing_hw_time_us() : timer_now_us();
-
-        if (landing_hw_frame_pending()) {
-            const int size = landing_hw_take_frame(&record);
-            if (size > 0) {
-                (void)app_on_record(&app, &record, (size_t)size, now_us);
-                landing_hw_adapt(app_min_area_px(&app), app_threshold_register(&app));
-                // A record takes long enough to make TIMESYNC's answer late.
-                now_us = landing_hw_time_us();
-            } else {
-                app_on_lost_record(&app);
-            }
-        }
-        read(APP_LINK_AUTOPILOT, now_us);
-        read(APP_LINK_GROUND, now_us);
-        if (has_hardware) {
-            const struct lidar_reading lidar = landing_hw_lidar();
-            if (now_us >= next_complaints_us) {
-                const struct app_complaints complaints = landing_hw_complaints();
-                app_on_complaints(&app, &complaints, now_us);
-                next_complaints_us = now_us + COMPLAINTS_PERIOD_US;
-            }
-            app_tick(&app, now_us, &lidar);
-        } else {
-            app_tick(&app, now_us, NULL);
-        }
-        (void)app_parameters_to_keep(&app, keep.parameters);
+        round_of_main_loop();
         sleep_until_interrupt();
     }
 }

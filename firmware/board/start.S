@@ -9,6 +9,8 @@
     .equ MODE_UNDEFINED, 0x1B
     .equ MODE_SYSTEM, 0x1F
 
+    .equ PAINT, 0x5AFE57AC                  // of the stack, as in stack.c
+
     .equ SCTLR_MMU, 1 << 0
     .equ SCTLR_DCACHE, 1 << 2
     .equ SCTLR_BRANCH_PREDICTION, 1 << 11
@@ -82,10 +84,18 @@ park:
     strlo   r2, [r0], #4
     blo     3b
 
+    // What has never been on the stack stays painted.
+    ldr     r0, =stack_bottom
+    ldr     r1, =stack_top
+    ldr     r2, =PAINT
+4:  cmp     r0, r1
+    strlo   r2, [r0], #4
+    blo     4b
+
     bl      mmu_enable
     bl      main
-4:  wfi
-    b       4b
+5:  wfi
+    b       5b
 
 // Return state and the registers that C may change go on the system-mode stack.
 interrupt_entry:

@@ -10,4 +10,7 @@ void timer_init(void);
 // Microseconds since timer_init(), from the global timer.
 uint64_t timer_now_us(void);
 
+// How often the tick, one a millisecond, has interrupted.
+uint32_t timer_ticks(void);
+
 #endif

@@ -146,6 +146,16 @@ bool uart_has_input(enum uart_id id)
     return !byte_ring_is_empty(&uarts[id].rx);
 }
 
+uint32_t uart_sent(enum uart_id id)
+{
+    return byte_ring_taken(&uarts[id].tx);
+}
+
+bool uart_is_sending(enum uart_id id)
+{
+    return !byte_ring_is_empty(&uarts[id].tx);
+}
+
 static bool send_polled(uintptr_t base, uint8_t byte)
 {
     for (uint32_t polls = 0; polls < POLL_LIMIT; polls++) {

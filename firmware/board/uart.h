@@ -19,6 +19,10 @@ bool uart_write(enum uart_id id, const uint8_t *bytes, size_t size);
 size_t uart_read(enum uart_id id, uint8_t *bytes, size_t limit);
 bool uart_has_input(enum uart_id id);
 
+// How many bytes have left for the FIFO so far, and whether more wait.
+uint32_t uart_sent(enum uart_id id);
+bool uart_is_sending(enum uart_id id);
+
 // For faults: without interrupts; sends what is in the ring, then the bytes. Gives
 // up on a UART that takes nothing.
 void uart_write_polled(enum uart_id id, const uint8_t *bytes, size_t size);

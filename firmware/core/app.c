@@ -79,6 +79,18 @@ void app_on_crash(struct app *app, uint32_t kind, uint32_t address)
     links_say(&app->links, MAVLINK_OUT_CRITICAL, text.chars);
 }
 
+void app_on_watchdog(struct app *app)
+{
+    links_say(&app->links, MAVLINK_OUT_CRITICAL, "restarted: watchdog");
+}
+
+void app_on_vitals(struct app *app, const struct app_vitals *vitals)
+{
+    app->health[APP_HEALTH_STACK_BYTES] = vitals->stack_used_bytes;
+    app->health[APP_HEALTH_BUSY_PERMILLE] = vitals->busy_permille;
+    app->health[APP_HEALTH_FRAME_US] = vitals->frame_worst_us;
+}
+
 // The fused altitude scales what the pad's size says.
 static double scale_of(const struct pad_estimate *pad, const struct altitude *altitude)
 {
@@ -318,8 +330,10 @@ void app_on_bytes(struct app *app, enum app_link link, const uint8_t *bytes, siz
     }
 }
 
-static void send_health(struct app *app, uint64_t now_us)
+static void send_health(struct app *app, uint64_t now_us, const struct lidar_reading *lidar)
 {
+    const uint32_t age_ms = lidar != NULL ? lidar->age_us / US_PER_MS : APP_LIDAR_AGE_MAX_MS;
+    uint32_t round_trip_us;
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     float values[APP_HEALTH_FIELDS];
 
@@ -327,6 +341,11 @@ static void send_health(struct app *app, uint64_t now_us)
     app->health[APP_HEALTH_PHASE] = (uint32_t)app->flight.landing.phase;
     app->health[APP_HEALTH_DROPPED_AUTOPILOT] = app->links.dropped[APP_LINK_AUTOPILOT];
     app->health[APP_HEALTH_DROPPED_GROUND] = app->links.dropped[APP_LINK_GROUND];
+    app->health[APP_HEALTH_LIDAR_AGE_MS] = age_ms < APP_LIDAR_AGE_MAX_MS ? age_ms : APP_LIDAR_AGE_MAX_MS;
+    app->health[APP_HEALTH_TIMESYNC_US] = 0U;
+    if (timesync_is_known(&app->timesync, now_us, &round_trip_us)) {
+        app->health[APP_HEALTH_TIMESYNC_US] = round_trip_us;
+    }
     for (int i = 0; i < APP_HEALTH_FIELDS; i++) {
         values[i] = (float)app->health[i];
     }
@@ -407,7 +426,7 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
         if (app->fault != NULL) {
             links_say(&app->links, MAVLINK_OUT_CRITICAL, app->fault);
         } else {
-            send_health(app, now_us);
+            send_health(app, now_us, lidar);
         }
     }
     // "Out of range" would let an autopilot arm with a sensor that is not there.

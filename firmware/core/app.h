@@ -62,7 +62,21 @@ enum app_health_field {
     APP_HEALTH_WRITE_ERRORS,     // looks that found a refused memory write
     APP_HEALTH_LIDAR_FAULTS,     // looks that found a LiDAR fault
     APP_HEALTH_PHASE,            // enum landing_phase
+    APP_HEALTH_LIDAR_AGE_MS,     // of the newest reading; APP_LIDAR_AGE_MAX_MS = that or more, or none
+    APP_HEALTH_TIMESYNC_US,      // shortest of the last round trips; 0 = the autopilot's clock is not known
+    APP_HEALTH_STACK_BYTES,      // the most that was in use
+    APP_HEALTH_BUSY_PERMILLE,    // of the processor, in the last second
+    APP_HEALTH_FRAME_US,         // the longest that a frame took the processor
     APP_HEALTH_FIELDS
+};
+
+#define APP_LIDAR_AGE_MAX_MS 9999U
+
+// What only the board knows of itself.
+struct app_vitals {
+    uint32_t stack_used_bytes;
+    uint32_t busy_permille;
+    uint32_t frame_worst_us;
 };
 
 // What the hardware complains of, since the last look.
@@ -114,6 +128,12 @@ bool app_parameters_to_keep(struct app *app, uint8_t *bytes);
 
 // Says why the run before this one ended.
 void app_on_crash(struct app *app, uint32_t kind, uint32_t address);
+
+// Says that it was the watchdog that ended it.
+void app_on_watchdog(struct app *app);
+
+// For HEALTH; to be called once a second.
+void app_on_vitals(struct app *app, const struct app_vitals *vitals);
 
 // One record of `size_bytes`, as copied. Returns 0, or the RECORD_E_* for which
 // it was rejected. Frames go forward only: one that is not newer than the last is

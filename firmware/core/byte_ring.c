@@ -38,6 +38,11 @@ size_t byte_ring_take(struct byte_ring *ring, uint8_t *bytes, size_t limit)
     return count;
 }
 
+uint32_t byte_ring_taken(const struct byte_ring *ring)
+{
+    return atomic_load_explicit(&ring->taken, memory_order_relaxed);
+}
+
 size_t byte_ring_count(const struct byte_ring *ring)
 {
     return atomic_load_explicit(&ring->written, memory_order_acquire) -

@@ -23,6 +23,9 @@ bool byte_ring_put(struct byte_ring *ring, const uint8_t *bytes, size_t count);
 // Takes up to `limit` bytes and returns how many.
 size_t byte_ring_take(struct byte_ring *ring, uint8_t *bytes, size_t limit);
 
+// Bytes taken so far; wraps.
+uint32_t byte_ring_taken(const struct byte_ring *ring);
+
 // Bytes that wait.
 size_t byte_ring_count(const struct byte_ring *ring);
 

@@ -41,5 +41,7 @@ void test_timesync(void);
 void test_tracker(void);
 void test_uart(void);
 void test_uart_baud(void);
+void test_vitals(void);
+void test_watchdog(void);
 
 #endif

@@ -243,10 +243,31 @@ static void test_restart(void)
     test_case("why the run before ended");
     app_on_crash(&app, CRASH_DATA, 0x2000000U);
     CHECK(strcmp(last_text, "restarted: data abort at 02000000") == 0);
+    app_on_watchdog(&app);
+    CHECK(strcmp(last_text, "restarted: watchdog") == 0);
+}
+
+static void test_health_of_the_board(void)
+{
+    const struct app_vitals vitals = {.stack_used_bytes = 9000U, .busy_permille = 321U, .frame_worst_us = 4567U};
+    struct lidar_reading lidar = {.valid = true, .distance_mm = 1000U, .age_us = 12345U};
+
+    test_case("what the board knows of itself, and how old the LiDAR's reading is");
+    start();
+    app_on_vitals(&app, &vitals);
+    app_tick(&app, 0, &lidar);
+    CHECK(app.health[APP_HEALTH_STACK_BYTES] == 9000U && app.health[APP_HEALTH_BUSY_PERMILLE] == 321U);
+    CHECK(app.health[APP_HEALTH_FRAME_US] == 4567U && app.health[APP_HEALTH_LIDAR_AGE_MS] == 12U);
+    lidar = (struct lidar_reading){.valid = false, .age_us = UINT32_MAX};
+    app_tick(&app, 1000000U, &lidar);
+    CHECK(app.health[APP_HEALTH_LIDAR_AGE_MS] == APP_LIDAR_AGE_MAX_MS);
+    app_tick(&app, 2000000U, NULL);
+    CHECK(app.health[APP_HEALTH_LIDAR_AGE_MS] == APP_LIDAR_AGE_MAX_MS);
 }
 
 void test_app(void)
 {
+    test_health_of_the_board();
     test_restart();
     test_full_wire();
     test_no_thresholds_yet();

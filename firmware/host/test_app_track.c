@@ -262,7 +262,8 @@ static void answer_time(void)
     mavlink_message_t message;
 
     if (answers && asked_ns != 0) {
-        mavlink_msg_timesync_pack(1, 1, &message, (int64_t)(now_us + AHEAD_US) * 1000, asked_ns);
+        // A millisecond after the question, half of it on the way back.
+        mavlink_msg_timesync_pack(1, 1, &message, (int64_t)(now_us - 500U + AHEAD_US) * 1000, asked_ns);
         hear(&message);
     }
     asked_ns = 0;
@@ -291,8 +292,8 @@ static double off_m_while_rolling(void)
                                       0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
             hear(&message);
         }
-        app_tick(&app, now_us, NULL);
         answer_time();
+        app_tick(&app, now_us, NULL);
         // In the middle of a side of the triangle.
         if (ms == 3900U) {
             const double true_rad = fabs(fmod(1e-6 * (double)exposed_us, 0.4) - 0.2) - 0.1;
@@ -317,7 +318,8 @@ static void test_attitude_at_exposure(void)
     test_case("at 1 rad/s, with clocks that are known to each other, the pad stays where it is");
     answers = true;
     const double known_m = off_m_while_rolling();
-    CHECK(timesync_is_known(&app.timesync, now_us, &round_trip_us) && round_trip_us == 0U);
+    CHECK(timesync_is_known(&app.timesync, now_us, &round_trip_us) && round_trip_us == 1000U);
+    CHECK(app.health[APP_HEALTH_TIMESYNC_US] == 1000U);
     CHECK(known_m < 0.003);
     test_case("without, it moves by the 10 ms that ATTITUDE was late");
     answers = false;

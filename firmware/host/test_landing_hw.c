@@ -113,8 +113,47 @@ static void test_complaints(void)
     CHECK(!complaints.write_error && complaints.lidar_fault);
 }
 
+static void fit(void)
+{
+    registers[LANDING_REG_ID_OFFSET / 4U] = LANDING_REG_ID_VALUE_RESET;
+    registers[LANDING_REG_VERSION_OFFSET / 4U] = LANDING_REG_VERSION_MAJOR_RESET << LANDING_REG_VERSION_MAJOR_SHIFT;
+    registers[LANDING_REG_RING_INFO_OFFSET / 4U] =
+        LANDING_RING_BUFFERS << LANDING_REG_RING_INFO_BUFFERS_SHIFT |
+        LANDING_RECORD_MAX_OBJECTS << LANDING_REG_RING_INFO_MAX_OBJECTS_SHIFT;
+}
+
+static bool refuses(const char *about)
+{
+    const char *fault = landing_hw_fault();
+
+    return fault != NULL && strstr(fault, about) != NULL && strlen(fault) <= 50U;
+}
+
+static void test_faults(void)
+{
+    test_case("hardware that fits");
+    fit();
+    CHECK(landing_hw_fault() == NULL);
+    registers[LANDING_REG_RING_INFO_OFFSET / 4U] -= 1U << LANDING_REG_RING_INFO_MAX_OBJECTS_SHIFT;
+    CHECK(landing_hw_fault() == NULL);
+    test_case("hardware that is not there, of another version, or with another ring");
+    fit();
+    registers[LANDING_REG_ID_OFFSET / 4U] = 0U;
+    CHECK(refuses("no landing_core"));
+    fit();
+    registers[LANDING_REG_VERSION_OFFSET / 4U] += 1U << LANDING_REG_VERSION_MAJOR_SHIFT;
+    CHECK(refuses("do not match"));
+    fit();
+    registers[LANDING_REG_RING_INFO_OFFSET / 4U] -= 1U << LANDING_REG_RING_INFO_BUFFERS_SHIFT;
+    CHECK(refuses("another size"));
+    fit();
+    registers[LANDING_REG_RING_INFO_OFFSET / 4U] += 1U << LANDING_REG_RING_INFO_MAX_OBJECTS_SHIFT;
+    CHECK(refuses("another size"));
+}
+
 void test_landing_hw(void)
 {
+    test_faults();
     test_adaptation();
     test_frames();
     test_complaints();

@@ -66,6 +66,8 @@ int main(void)
     test_tracker();
     test_uart();
     test_uart_baud();
+    test_vitals();
+    test_watchdog();
     (void)printf("unit_tests: %d checks, %d failures\n", checks, failures);
     return failures == 0 ? 0 : 1;
 }

@@ -14,10 +14,11 @@
 static uint32_t register_read(uintptr_t address);
 static void register_write(uintptr_t address, uint32_t value);
 
+static void (*interrupt_of[2])(void);
+
 static void gic_enable(uint32_t interrupt, void (*handler)(void))
 {
-    (void)interrupt;
-    (void)handler;
+    interrupt_of[interrupt] = handler;
 }
 
 static void interrupts_enable(void)
@@ -91,6 +92,30 @@ void test_uart(void)
     CHECK(sent == sizeof message + 4U);
     CHECK(memcmp(wire, message, sizeof message) == 0);
     CHECK(memcmp(wire + sizeof message, "last", 4U) == 0);
+
+    test_case("what would leave 100 ms late is not sent, whole messages at a time");
+    start();
+    room = 0;
+    stuck = true;
+    size_t taken = 0;
+    while (uart_write(UART_1, message, 50U)) {
+        taken += 50U;
+    }
+    CHECK(taken == 500U); // 512 and the 64 of the FIFO are 100 ms at 57600 baud
+    CHECK(uart_is_sending(UART_1) && uart_sent(UART_1) == 0U);
+    CHECK(uart_write(UART_1, message, 12U) && !uart_write(UART_1, message, 1U));
+    test_case("as it leaves there is room again");
+    room = FIFO_BYTES;
+    interrupt_of[1]();
+    CHECK(uart_sent(UART_1) == FIFO_BYTES && uart_write(UART_1, message, 50U));
+    stuck = false;
+    uart_write_polled(UART_1, message, 0U);
+    CHECK(!uart_is_sending(UART_1) && uart_sent(UART_1) == sent);
+    test_case("a faster wire takes more, as much as there is memory");
+    uart_init(UART_1, 115200U);
+    CHECK(uarts[UART_1].tx_limit == 1088U);
+    uart_init(UART_1, 921600U);
+    CHECK(uarts[UART_1].tx_limit > TX_BYTES);
 
     test_case("a UART that takes nothing does not hold the processor for long");
     start();
