@@ -260,3 +260,31 @@ def test_time_is_asked_for(firmware: Firmware) -> None:
     asked = [message for message in firmware.take(AUTOPILOT) if message.get_type() == "TIMESYNC"]
     assert [(message.tc1, message.ts1) for message in asked] == [(0, second * 10**9) for second in (2, 3, 4)]
     assert not [message for message in firmware.take(GROUND) if message.get_type() == "TIMESYNC"]
+
+
+def test_a_start_in_the_air_commands_nothing(firmware: Firmware) -> None:
+    """As after a reset by the watchdog: armed, steered until then, the switch on, the pad in sight; all is well."""
+    autopilot = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+    base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+    guided = mavlink.MAVLink_heartbeat_message(2, mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA, base, 4, 4, 3)
+    switch_on = mavlink.MAVLink_rc_channels_message(0, 8, *([1500] * 7), 2000, *([0] * 10), 200)
+    in_air = mavlink.MAVLink_extended_sys_state_message(0, mavlink.MAV_LANDED_STATE_IN_AIR)
+    said = [(guided, 1_000_000), (switch_on, 100_000), (in_air, 200_000)]
+    record = record_of(Pose(1.0), altitude_valid=1, altitude_mm=1000)
+    for now_us in range(1_000_000, 11_000_000, 5000):
+        for message, period_us in said:
+            if now_us % period_us == 0:
+                firmware.on_bytes(AUTOPILOT, bytes(message.pack(autopilot)), now_us)
+        if now_us % 20_000 == 0:
+            firmware.attitude(0.0, 0.0, now_us)
+            number = now_us // 20_000
+            frame = (now_us - 16_000).to_bytes(8, "little") + record[16:60] + number.to_bytes(4, "little") + record[64:]
+            assert firmware.on_record(record[:8] + frame, now_us) == 0
+        firmware.tick(now_us)
+    sent = firmware.take(AUTOPILOT)
+    kinds = {message.get_type() for message in sent}
+    assert kinds == {"HEARTBEAT", "DISTANCE_SENSOR", "LANDING_TARGET", "TIMESYNC", "COMMAND_LONG"}
+    commands = {message.command for message in sent if message.get_type() == "COMMAND_LONG"}
+    assert commands == {mavlink.MAV_CMD_SET_MESSAGE_INTERVAL}
+    texts = [message.text for message in firmware.take(GROUND) if message.get_type() == "STATUSTEXT"]
+    assert texts == ["Touchdown: started"]

@@ -16,7 +16,7 @@ static const struct attitude_sample *sample_of(const struct attitude *attitude, 
     return &attitude->samples[(attitude->newest + ATTITUDE_SAMPLES - back) % ATTITUDE_SAMPLES];
 }
 
-static void keep(struct attitude *attitude, const struct attitude_sample *sample)
+static void hold(struct attitude *attitude, const struct attitude_sample *sample)
 {
     const uint64_t before_us = sample_of(attitude, 0U)->time_us;
 
@@ -44,7 +44,7 @@ void attitude_set(struct attitude *attitude, double roll_rad, double pitch_rad, 
     }
     const struct attitude_sample sample = {.time_us = time_us, .roll_rad = roll_rad, .pitch_rad = pitch_rad};
 
-    keep(attitude, &sample);
+    hold(attitude, &sample);
     attitude->known = true;
     attitude->received_us = now_us;
     attitude->roll_rad = roll_rad;
