@@ -7,6 +7,7 @@ Leaves a table on the terminal and, in build/demo, one annotated picture a frame
 and report.html, which holds everything in one file.
 """
 
+import os
 import time
 from collections.abc import Callable, Iterator
 from itertools import chain, islice
@@ -27,6 +28,8 @@ from sim.cosim.result import CosimResult
 from sim.cosim.run import FIRMWARES, run_cosim
 
 DEFAULT_OUT = Path("build/demo")
+GROUND_BAUD = "115200"
+"""At 57600 the ground gets PAD with every second frame alone; here it is asked what became of each."""
 Runner = Callable[..., CosimResult]
 
 
@@ -105,6 +108,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--out", type=Path, default=DEFAULT_OUT, help="folder for pictures and report")
     parser.add_argument("--limit", type=int, help="take at most this many frames")
     options = parser.parse_args(arguments)
+    os.environ.setdefault("GROUND_BAUD", GROUND_BAUD)
     start = time.monotonic()
     frames = open_frames(options.frames, options.limit)
     altitudes = altitudes_m(frames, options.altitude)

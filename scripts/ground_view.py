@@ -17,6 +17,8 @@ SILENT_S = 3.0
 _HEALTH = ("records", "rejected", "with pad", "malformed", "overflow")
 _BRIDGED = 0x200
 _PHASE_AT = 12
+_BOARD = slice(13, 18)
+_LIDAR_AGE_MAX_MS = 9999
 
 
 @dataclass
@@ -67,6 +69,7 @@ class View:
             self._phase(),
             self._pad(),
             self._counts(),
+            self._board(),
             "",
             *(f"{at:8.1f}  {text}" for at, text in self.texts),
         ]
@@ -101,6 +104,17 @@ class View:
         if not self.health:
             return "health  not told yet"
         return "health  " + ", ".join(f"{name} {value:.0f}" for name, value in zip(_HEALTH, self.health, strict=False))
+
+    def _board(self) -> str:
+        if not self.health:
+            return "board   not told yet"
+        lidar_ms, round_trip_us, stack_bytes, busy_permille, frame_us = self.health[_BOARD]
+        lidar = f"LiDAR {lidar_ms:.0f} ms old" if lidar_ms < _LIDAR_AGE_MAX_MS else "no LiDAR reading"
+        clock = f"TIMESYNC in {round_trip_us / 1000:.1f} ms" if round_trip_us else "autopilot's clock not known"
+        return (
+            f"board   {lidar}, {clock}, stack {stack_bytes:.0f} bytes, processor {busy_permille / 10:.1f} % busy, "
+            f"longest frame {frame_us / 1000:.1f} ms"
+        )
 
 
 @cache

@@ -122,6 +122,14 @@ def test_view_of_a_pad() -> None:
     )
     take(mavlink.MAVLink_debug_float_array_message(0, b"PAD", 1, [0.0, *pad[1:]]))
     assert "not seen" in view.lines(1.0)[2]
+    assert view.lines(1.0)[4] == "board   not told yet"
+    health = [0.0] * 13 + [12.0, 2300.0, 5120.0, 345.0, 6789.0] + [0.0] * 40
+    take(mavlink.MAVLink_debug_float_array_message(0, b"HEALTH", 2, health))
+    assert view.lines(1.0)[4] == (
+        "board   LiDAR 12 ms old, TIMESYNC in 2.3 ms, stack 5120 bytes, processor 34.5 % busy, longest frame 6.8 ms"
+    )
+    take(mavlink.MAVLink_debug_float_array_message(0, b"HEALTH", 2, health[:13] + [9999.0] + [0.0] * 44))
+    assert "no LiDAR reading, autopilot's clock not known, stack 0" in view.lines(1.0)[4]
     take(mavlink.MAVLink_heartbeat_message(18, 8, 0, 0, mavlink.MAV_STATE_CRITICAL, 3))
     assert "FAULT" in view.lines(1.5)[0]
     assert "silent" in view.lines(5.0)[0]
