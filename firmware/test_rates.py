@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bytes a second on both wires, at each baud rate, while a landing is flown and the ground asks for everything."""
 
+import re
 from collections import Counter
 from dataclasses import dataclass
 
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from firmware.library import AUTOPILOT, GROUND, Firmware, make
+from firmware.library import AUTOPILOT, GROUND, ROOT, Firmware, make
 from sim.flight import scenario
 from sim.flight.autopilot import ARDUPILOT, PX4, Autopilot
 from sim.flight.scenario import Flight
@@ -134,7 +135,15 @@ RATES = {
         "ATTITUDE": 25,
     },
 }
-"""Messages a second; docs/firmware.md has them too."""
+"""Messages a second."""
+
+
+def test_the_page_says_the_same() -> None:
+    page = (ROOT / "docs" / "firmware.md").read_text()
+    for name in RATES[FAST]:
+        row = re.search(rf"^\| {name}\b[^|]*\| \d+ \| (\d+)\b[^|]*\| \d+ \| (\d+)\b", page, re.MULTILINE)
+        assert row is not None, name
+        assert (int(row[1]), int(row[2])) == (RATES[FAST][name], RATES[NARROW][name]), name
 
 
 @pytest.mark.usefixtures("as_on_the_board")
@@ -142,7 +151,6 @@ RATES = {
 @pytest.mark.parametrize("bauds", [(FAST, FAST), (FAST, NARROW), (115_200, 115_200), (NARROW, NARROW)])
 def test_every_wire_has_room(bauds: tuple[int, int], profile: str) -> None:
     seen = traffic(bauds, profile)
-    print(bauds, profile, seen.sent, seen.bytes_s, seen.said_s, seen.lasts_s)
     for wire, baud in zip((AUTOPILOT, GROUND), bauds, strict=True):
         assert seen.bytes_s[wire] * BITS_A_BYTE < SHARE * baud, f"wire {wire}: {seen.sent[wire]}"
         assert seen.lasts_s[wire] < WAIT_S
