@@ -11,6 +11,7 @@ from pymavlink.dialects.v20 import common as mavlink
 from firmware.library import AUTOPILOT, GROUND, ROOT, Firmware, make
 from sim.flight import scenario
 from sim.flight.autopilot import ARDUPILOT, PX4, Autopilot
+from sim.flight.board import HostBoard
 from sim.flight.scenario import Flight
 from sim.flight.vehicle import Vehicle
 
@@ -22,6 +23,14 @@ SECONDS = 4
 WAIT_S = 0.1
 FRAME_US, TICK_US = 16_667, 1000
 """As on the board."""
+
+
+class WiredBoard(HostBoard):
+    """The core, with wires of so many baud to autopilot and ground."""
+
+    def __init__(self, bauds: tuple[int, int]) -> None:
+        super().__init__()
+        self._firmware = Firmware(bauds=bauds)
 
 
 @dataclass
@@ -72,8 +81,7 @@ def longest_wait(sizes: list[tuple[float, int]], baud: int) -> float:
 
 def traffic(bauds: tuple[int, int], profile: str = ARDUPILOT) -> Traffic:
     """Steer above the pad for some seconds while both ends ask for all they can, and count."""
-    flight = Flight(Autopilot(profile, Vehicle(north_m=-0.4, east_m=0.3, height_m=1.8)))
-    flight.firmware = Firmware(bauds=bauds)
+    flight = Flight(Autopilot(profile, Vehicle(north_m=-0.4, east_m=0.3, height_m=1.8)), WiredBoard(bauds))
     autopilot = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
     said: list[tuple[float, int]] = []
     say = flight.autopilot.say
@@ -170,8 +178,8 @@ def test_every_wire_has_room(bauds: tuple[int, int], profile: str) -> None:
 
 @pytest.mark.parametrize("profile", [ARDUPILOT, PX4])
 def test_it_lands_over_narrow_wires(profile: str) -> None:
-    flight = Flight(Autopilot(profile, Vehicle(north_m=-0.5, east_m=0.4, height_m=1.8, heading_rad=1.0)))
-    flight.firmware = Firmware(bauds=(NARROW, NARROW))
+    vehicle = Vehicle(north_m=-0.5, east_m=0.4, height_m=1.8, heading_rad=1.0)
+    flight = Flight(Autopilot(profile, vehicle), WiredBoard((NARROW, NARROW)))
     flight.run(2.5)
     flight.switch(True)
     flight.run_to("down, motors off")
@@ -181,8 +189,7 @@ def test_it_lands_over_narrow_wires(profile: str) -> None:
 
 def test_the_newest_goes_out() -> None:
     """A target that comes back is told with its first frame, and what is left out is never made up for later."""
-    flight = Flight(Autopilot(ARDUPILOT, Vehicle(height_m=1.5)))
-    flight.firmware = Firmware(bauds=(NARROW, NARROW))
+    flight = Flight(Autopilot(ARDUPILOT, Vehicle(height_m=1.5)), WiredBoard((NARROW, NARROW)))
     flight.run(2.0)
     flight.pad_hidden = True
     flight.run(3.0)

@@ -98,12 +98,11 @@ static double scale_of(const struct pad_estimate *pad, const struct altitude *al
 }
 
 static void send_landing_target(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
-                                const struct altitude *altitude)
+                                const struct altitude *altitude, uint64_t now_us)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
 
-    if (!rates_frame_is_due(app->links.rates[APP_LINK_AUTOPILOT]->frames_a_message, record->header.frame_number,
-                            &app->last_target_frame)) {
+    if (!rates_frame_is_due(app->links.rates[APP_LINK_AUTOPILOT]->frame_period_us, now_us, &app->last_target_us)) {
         return;
     }
     const struct mavlink_out_target target = {
@@ -120,14 +119,13 @@ static void send_landing_target(struct app *app, const struct landing_record *re
 
 // `pad` is NULL when none was found.
 static void send_pad_array(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
-                           bool bridged, const struct altitude *altitude)
+                           bool bridged, const struct altitude *altitude, uint64_t now_us)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     float values[APP_PAD_FIELDS] = {0.0F};
     uint32_t flags = record->header.flags & RECORD_FLAGS;
 
-    if (!rates_frame_is_due(app->links.rates[APP_LINK_GROUND]->frames_a_message, record->header.frame_number,
-                            &app->last_pad_frame)) {
+    if (!rates_frame_is_due(app->links.rates[APP_LINK_GROUND]->frame_period_us, now_us, &app->last_pad_us)) {
         return;
     }
     flags |= altitude->from_lidar ? APP_FLAG_ALTITUDE_LIDAR : 0U;
@@ -290,9 +288,9 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     if (found) {
         app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
-        send_landing_target(app, record, &pad, &altitude);
+        send_landing_target(app, record, &pad, &altitude, now_us);
     }
-    send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude);
+    send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
     return 0;
 }
 

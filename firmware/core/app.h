@@ -97,8 +97,8 @@ struct app {
     uint64_t next_distance_us;
     uint64_t last_record_us;
     uint32_t last_frame_number; // 0 = none yet
-    uint32_t last_target_frame; // frame numbers of the newest messages; 0 = none yet
-    uint32_t last_pad_frame;
+    uint64_t last_target_us; // 0 = none yet
+    uint64_t last_pad_us;
     uint64_t next_complaint_us[APP_COMPLAINTS];
     struct attitude attitude;
     struct timesync timesync; // with the autopilot

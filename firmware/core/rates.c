@@ -4,21 +4,20 @@
 // The autopilot's estimator wants LANDING_TARGET at 10 Hz or more, its pre-arm
 // check a distance every 500 ms, steering a velocity every 500 ms.
 static const struct rates full = {
-    .frames_a_message = 1U,
     .distance_period_us = 50000U,
     .velocity_period_us = 33000U,
     .attitude_interval_us = 20000U,
     .rc_interval_us = 100000U,
 };
 static const struct rates narrow_autopilot = {
-    .frames_a_message = 3U,
+    .frame_period_us = 42000U, // each third of 60 frames a second, with half a frame to spare either way
     .distance_period_us = 100000U,
     .velocity_period_us = 50000U,
     .attitude_interval_us = 40000U,
     .rc_interval_us = 200000U,
 };
 static const struct rates narrow_ground = {
-    .frames_a_message = 2U,
+    .frame_period_us = 25000U, // each second
 };
 
 const struct rates *rates_of(enum rates_wire wire, uint32_t baud)
@@ -29,12 +28,11 @@ const struct rates *rates_of(enum rates_wire wire, uint32_t baud)
     return wire == RATES_AUTOPILOT ? &narrow_autopilot : &narrow_ground;
 }
 
-bool rates_frame_is_due(uint32_t frames, uint32_t number, uint32_t *last)
+bool rates_frame_is_due(uint32_t period_us, uint64_t now_us, uint64_t *last_us)
 {
-    // Numbers wrap.
-    if (number % frames != 0U && *last != 0U && number - *last < frames) {
+    if (*last_us != 0U && now_us < *last_us + period_us) {
         return false;
     }
-    *last = number;
+    *last_us = now_us;
     return true;
 }

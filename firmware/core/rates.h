@@ -12,7 +12,7 @@
 
 // Of one wire.
 struct rates {
-    uint32_t frames_a_message; // one LANDING_TARGET or PAD for so many frames
+    uint32_t frame_period_us; // at least, from one LANDING_TARGET or PAD to the next; 0 = with each frame
     uint32_t distance_period_us;
     uint32_t velocity_period_us;
     uint32_t attitude_interval_us; // asked of the autopilot, whose direction is as narrow
@@ -24,8 +24,7 @@ enum rates_wire { RATES_AUTOPILOT, RATES_GROUND };
 // `baud` 0: no wire that would set a limit.
 const struct rates *rates_of(enum rates_wire wire, uint32_t baud);
 
-// True when a message belongs to this frame: its number divides by `frames`, or that many have passed since the
-// last one, when frames were lost or the pad came back. `last` is the number of the last such frame.
-bool rates_frame_is_due(uint32_t frames, uint32_t number, uint32_t *last);
+// True when so much time has passed since the last such frame, at `last_us`; 0 = there was none.
+bool rates_frame_is_due(uint32_t period_us, uint64_t now_us, uint64_t *last_us);
 
 #endif
