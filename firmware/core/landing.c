@@ -111,12 +111,21 @@ static uint32_t pad_facts(struct landing *landing, const struct landing_known *k
            when((float)landing->times_lost > parameters->tries, LANDING_FACT_TRIES_USED);
 }
 
+// Of two that contradict each other in one cycle, the one that flies less counts.
+static uint32_t asked_facts(uint32_t asked)
+{
+    const uint32_t outdone = when((asked & LANDING_FACT_ABORT) != 0U, LANDING_FACT_START) |
+                             when((asked & LANDING_FACT_PAUSE) != 0U, LANDING_FACT_GO_ON);
+
+    return asked & LANDING_ASKED & ~outdone;
+}
+
 uint32_t landing_facts(struct landing *landing, const struct landing_known *known, uint64_t now_us)
 {
     const uint32_t limit_s = landing_phase_table[landing->phase].limit_s;
     const bool time_out = limit_s != 0U && now_us >= landing->entered_us + (uint64_t)limit_s * US_PER_S;
 
-    return (known->asked & LANDING_ASKED) | when(time_out, LANDING_FACT_TIME_OUT) |
+    return asked_facts(known->asked) | when(time_out, LANDING_FACT_TIME_OUT) |
            autopilot_facts(landing, known, now_us) | sensor_facts(known, now_us) | pad_facts(landing, known, now_us);
 }
 

@@ -111,6 +111,26 @@ static void test_autopilot_facts(void)
     CHECK((facts_at(t) & LANDING_FACT_ABORT) != 0U);
 }
 
+static void test_asked_at_once(void)
+{
+    const uint64_t t = 100U * (uint64_t)SECOND;
+
+    all_well(t);
+    landing_init(&landing, t);
+    test_case("start and abort between two cycles: no start");
+    known.asked = LANDING_FACT_START;
+    CHECK((facts_at(t) & LANDING_ASKED) == LANDING_FACT_START);
+    known.asked = LANDING_FACT_START | LANDING_FACT_ABORT;
+    CHECK((facts_at(t) & LANDING_ASKED) == LANDING_FACT_ABORT);
+    (void)landing_step(&landing, facts_at(t), t);
+    CHECK(landing.phase == LANDING_PHASE_STANDBY);
+    test_case("pause and go on between two cycles: it stands still");
+    known.asked = LANDING_FACT_PAUSE | LANDING_FACT_GO_ON;
+    CHECK((facts_at(t) & LANDING_ASKED) == LANDING_FACT_PAUSE);
+    known.asked = LANDING_FACT_GO_ON;
+    CHECK((facts_at(t) & LANDING_ASKED) == LANDING_FACT_GO_ON);
+}
+
 static void test_lidar_contradicts(void)
 {
     const uint64_t t = 100U * (uint64_t)SECOND;
@@ -226,6 +246,7 @@ void test_landing(void)
 {
     test_each_fact();
     test_autopilot_facts();
+    test_asked_at_once();
     test_lidar_contradicts();
     test_settling();
     test_committed();
