@@ -49,11 +49,15 @@ int main(void)
     test_detect();
     test_detect_not();
     test_factor_search();
+    test_flight();
     test_frame_queue();
     test_fusion();
+    test_ground();
     test_hypothesis();
     test_landing();
     test_landing_hw();
+    test_mavlink_in();
+    test_mavlink_out();
     test_pad_fit();
     test_pad_view();
     test_parameters();
