@@ -27,6 +27,10 @@ NO_GOALS ?=
 BOARD ?=
 SQUARE_MM ?=
 RADIAL ?=
+TARGET ?=
+RUNS ?=
+SECONDS ?=
+KEEP ?=
 JOBS ?= 2
 
 .PHONY: help
@@ -99,6 +103,10 @@ accuracy: setup ## How well the pad is found, against truth and goals: [FRAMES=f
 .PHONY: calibrate
 calibrate: setup ## Measure the camera from photos of a chessboard or the pad: FRAMES=folder [BOARD=9x6|pad] [SQUARE_MM=25] [RADIAL=0|1|2]
 	@$(PYTHON) -m scripts.calibrate --frames "$(FRAMES)" $(if $(BOARD),--board "$(BOARD)") $(if $(SQUARE_MM),--square-mm "$(SQUARE_MM)") $(if $(RADIAL),--radial "$(RADIAL)")
+
+.PHONY: fuzz
+fuzz: setup ## Hostile input for the firmware, under sanitizers: [TARGET=name] [RUNS=n] [SECONDS=n] [KEEP=1]
+	@$(PYTHON) -m scripts.fuzz $(if $(TARGET),--target "$(TARGET)") $(if $(RUNS),--runs "$(RUNS)") $(if $(SECONDS),--seconds "$(SECONDS)") $(if $(filter-out 0,$(KEEP)),--keep)
 
 .PHONY: flight
 flight: setup ## Fly one landing in simulation, print its steps and draw it: [PROFILE=px4] [GUSTS=0.5] [SEED=n]

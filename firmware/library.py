@@ -2,6 +2,7 @@
 """The firmware's core in this process, through the C interface of `firmware/host/host.h`."""
 
 import ctypes
+import fcntl
 import subprocess
 from pathlib import Path
 
@@ -16,18 +17,21 @@ _WRITE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.POINTER(ct
 
 
 def make(*targets: str) -> str:
-    """Run `make -C firmware` and return what it printed.
+    """Run `make -C firmware` and return what it printed. Tests that run beside each other take turns.
 
     Raises:
         AssertionError: it failed; the message holds all that it printed.
     """
-    run = subprocess.run(
-        ["make", "-C", str(ROOT / "firmware"), *targets],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with (BUILD / "make.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run = subprocess.run(
+            ["make", "-C", str(ROOT / "firmware"), *targets],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
     assert run.returncode == 0, f"make -C firmware {' '.join(targets)} failed:\n{run.stdout}"
     return run.stdout
 

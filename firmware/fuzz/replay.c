@@ -19,7 +19,8 @@ static long replay(const char *path)
     if (file == NULL) {
         return -1;
     }
-    while (fread(length, 1U, sizeof length, file) == sizeof length) {
+    size_t got;
+    while ((got = fread(length, 1U, sizeof length, file)) == sizeof length) {
         const size_t size = length[0] | (size_t)length[1] << 8U | (size_t)length[2] << 16U | (size_t)length[3] << 24U;
 
         // In memory of its own, so that a read beyond the end is found.
@@ -34,7 +35,7 @@ static long replay(const char *path)
         count++;
     }
     (void)fclose(file);
-    return count;
+    return got == 0U ? count : -1;
 }
 
 int main(int argc, char **argv)

@@ -265,9 +265,91 @@ static void test_health_of_the_board(void)
     CHECK(app.health[APP_HEALTH_LIDAR_AGE_MS] == APP_LIDAR_AGE_MAX_MS);
 }
 
+static void test_fault(void)
+{
+    const struct app_port port = {.write = count, .context = NULL};
+    const struct lidar_reading lidar = {.valid = true, .distance_mm = 1000, .age_us = 0};
+
+    test_case("with a fault the reason is said with each heartbeat, and nothing flies");
+    app_init(&app, &port, 0, "Touchdown: no landing_core");
+    memset(messages, 0, sizeof messages);
+    app_tick(&app, 0, &lidar);
+    CHECK(strcmp(last_text, "Touchdown: no landing_core") == 0);
+    CHECK(messages[APP_LINK_GROUND] == 2);
+    app_tick(&app, 5000000U, &lidar);
+    CHECK(messages[APP_LINK_GROUND] == 4); // neither HEALTH nor word of missing frames
+    CHECK(app.flight.known.lidar_us == 0U);
+}
+
+static void test_no_frames(void)
+{
+    const char *missing = "Touchdown: no frames, check camera and FRAME_SIZE";
+
+    test_case("missing frames are said once, and when they come again");
+    start();
+    scene_clear(&record);
+    app_tick(&app, 2000000U, NULL);
+    CHECK(strcmp(last_text, "Touchdown: started") == 0);
+    app_tick(&app, 2000001U, NULL);
+    CHECK(strcmp(last_text, missing) == 0);
+    links_say(&app.links, MAVLINK_OUT_INFO, "other words");
+    app_tick(&app, 3000000U, NULL);
+    CHECK(strcmp(last_text, "other words") == 0);
+    CHECK(app_on_record(&app, &record, sizeof record, 3000000U) == 0);
+    app_tick(&app, 3000001U, NULL);
+    CHECK(strcmp(last_text, "Touchdown: frames again") == 0);
+}
+
+static void test_lidar_that_is_not_there(void)
+{
+    const struct lidar_reading none = {.valid = false, .distance_mm = 0, .age_us = 0};
+    const struct lidar_reading some = {.valid = true, .distance_mm = 1000, .age_us = 0};
+
+    test_case("a LiDAR that has never worked claims nothing, one that has says it is out of range");
+    start();
+    memset(messages, 0, sizeof messages);
+    app_tick(&app, 0, &none);
+    CHECK(messages[APP_LINK_AUTOPILOT] == 1); // HEARTBEAT
+    app_tick(&app, 100000U, &some);
+    CHECK(messages[APP_LINK_AUTOPILOT] == 2);
+    app_tick(&app, 200000U, &none);
+    CHECK(messages[APP_LINK_AUTOPILOT] == 3);
+    app_tick(&app, 300000U, NULL);
+    CHECK(messages[APP_LINK_AUTOPILOT] == 3);
+}
+
+static void give_sent(enum app_link link, const mavlink_message_t *message)
+{
+    uint8_t bytes[MAVLINK_MAX_PACKET_LEN];
+
+    app_on_bytes(&app, link, bytes, mavlink_msg_to_send_buffer(bytes, message), 1000U);
+}
+
+static void test_bytes(void)
+{
+    mavlink_message_t message;
+
+    test_case("whoever asks for the time is answered on that link");
+    start();
+    memset(messages, 0, sizeof messages);
+    mavlink_msg_timesync_pack(1, 1, &message, 0, 77);
+    give_sent(APP_LINK_GROUND, &message);
+    CHECK(messages[APP_LINK_GROUND] == 1 && messages[APP_LINK_AUTOPILOT] == 0);
+    test_case("an attitude is the autopilot's or none");
+    mavlink_msg_attitude_pack(1, 1, &message, 0U, 0.25F, 0.125F, 0.0F, 0.0F, 0.0F, 0.0F);
+    give_sent(APP_LINK_GROUND, &message);
+    CHECK(!app.attitude.known);
+    give_sent(APP_LINK_AUTOPILOT, &message);
+    CHECK(app.attitude.known && app.attitude.roll_rad == 0.25 && app.attitude.pitch_rad == 0.125);
+}
+
 void test_app(void)
 {
     test_health_of_the_board();
+    test_fault();
+    test_no_frames();
+    test_lidar_that_is_not_there();
+    test_bytes();
     test_restart();
     test_full_wire();
     test_no_thresholds_yet();

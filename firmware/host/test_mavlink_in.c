@@ -9,6 +9,11 @@
 #define FROM_AUTOPILOT 1, MAV_COMP_ID_AUTOPILOT1
 
 static mavlink_message_t sent;
+// As long as the fields that they are copied to.
+static const char speed[MAVLINK_IN_PARAM_NAME_CHARS] = "TD_SPEED";
+static const char nameless[MAVLINK_IN_PARAM_NAME_CHARS] = "";
+static const char longest[MAVLINK_IN_PARAM_NAME_CHARS] = "SIXTEEN_LETTERS_";
+static const char words[MAVLINK_MSG_STATUSTEXT_FIELD_TEXT_LEN] = "PreArm: nothing for us";
 
 static enum mavlink_in_kind kind_of_sent(void)
 {
@@ -44,7 +49,7 @@ static void test_of_the_autopilot(void)
     for (uint16_t i = 0; i < MAVLINK_IN_RC_CHANNELS; i++) {
         CHECK(got.as.rc_us[i] == 1001U + i);
     }
-    mavlink_msg_statustext_pack(FROM_AUTOPILOT, &sent, MAV_SEVERITY_INFO, "PreArm: nothing for us", 0U, 0U);
+    mavlink_msg_statustext_pack(FROM_AUTOPILOT, &sent, MAV_SEVERITY_INFO, words, 0U, 0U);
     CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
 }
 
@@ -97,13 +102,13 @@ static void test_parameters_of_the_protocol(void)
     struct mavlink_in_message got;
 
     test_case("parameters by name, by index, all of them, of others");
-    mavlink_msg_param_request_read_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US, "TD_SPEED", -1);
+    mavlink_msg_param_request_read_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US, speed, -1);
     got = wire_receive(&sent);
     CHECK(got.kind == MAVLINK_IN_PARAM_READ && got.as.param.index == -1 && strcmp(got.as.param.name, "TD_SPEED") == 0);
-    mavlink_msg_param_request_read_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US, "", 3);
+    mavlink_msg_param_request_read_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US, nameless, 3);
     got = wire_receive(&sent);
     CHECK(got.kind == MAVLINK_IN_PARAM_READ && got.as.param.index == 3 && got.as.param.name[0] == '\0');
-    mavlink_msg_param_request_read_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, FROM_AUTOPILOT, "TD_SPEED",
+    mavlink_msg_param_request_read_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, FROM_AUTOPILOT, speed,
                                         -1);
     CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
     mavlink_msg_param_request_list_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US);
@@ -114,12 +119,12 @@ static void test_parameters_of_the_protocol(void)
     CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
     mavlink_msg_param_request_list_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, 2, MAV_COMP_ID_ALL);
     CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
-    mavlink_msg_param_set_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US, "SIXTEEN_LETTERS_", 0.25F,
+    mavlink_msg_param_set_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, US, longest, 0.25F,
                                MAV_PARAM_TYPE_REAL32);
     got = wire_receive(&sent);
     CHECK(got.kind == MAVLINK_IN_PARAM_SET && got.as.param.value == 0.25F && got.as.param.index == -1);
     CHECK(got.as.param.type == (uint8_t)MAV_PARAM_TYPE_REAL32 && strcmp(got.as.param.name, "SIXTEEN_LETTERS_") == 0);
-    mavlink_msg_param_set_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, FROM_AUTOPILOT, "TD_SPEED", 0.25F,
+    mavlink_msg_param_set_pack(WIRE_GROUND_SYSTEM, WIRE_GROUND_COMPONENT, &sent, FROM_AUTOPILOT, speed, 0.25F,
                                MAV_PARAM_TYPE_REAL32);
     CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
 }
