@@ -20,7 +20,7 @@ from scripts.fuzz_corpus import corpus_path, pack, unpack
 ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "fuzz"
 
-TARGETS = {"mavlink_in": 400, "record": 400, "parameters": 200, "loop": 400}
+TARGETS = {"mavlink_in": 400, "record": 400, "parameters": 400, "loop": 400}
 """Bytes that an input of each target may have: enough for several frames, records or steps."""
 
 _HANG_S = 60  # by the clock, on a machine that may have other work
