@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from firmware.library import BUILD, make
-from scripts import fuzz, fuzz_corpus
+from scripts import fuzz, fuzz_corpus, fuzz_seeds
 from scripts.errors import UserError
 
 CORPUS_BYTES_MAX = 1_000_000
@@ -34,6 +34,18 @@ def test_corpus_is_replayed(target: str) -> None:
     result = replay(target, path)
     assert result.returncode == 0, result.stderr
     assert re.match(rf"{len(inputs)} inputs of ", result.stdout), result.stdout
+
+
+@pytest.mark.parametrize("target", ["record", "loop"])
+def test_seeds_are_replayed(target: str, tmp_path: Path) -> None:
+    """Whole landings, torn records and what was once found."""
+    inputs = fuzz_seeds.seeds(target)
+    assert inputs
+    path = tmp_path / "seeds"
+    path.write_bytes(fuzz_corpus.packed_of(inputs))
+    result = replay(target, path)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith(f"{len(inputs)} inputs of "), result.stdout
 
 
 def test_corpora_are_small() -> None:

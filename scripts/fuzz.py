@@ -16,6 +16,7 @@ from pathlib import Path
 
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.fuzz_corpus import corpus_path, pack, unpack
+from scripts.fuzz_seeds import seeds
 
 ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "fuzz"
@@ -87,6 +88,8 @@ def run_target(target: str, runs: int, seconds: int) -> Outcome:
     inputs = folder / "corpus"
     inputs.mkdir(parents=True, exist_ok=True)
     unpack(corpus_path(target), inputs)
+    for index, data in enumerate(seeds(target)):
+        (inputs / f"seed{index}").write_bytes(data)
     options = [
         "-print_final_stats=1",
         "-entropic_scale_per_exec_time=1",

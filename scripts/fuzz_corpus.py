@@ -44,9 +44,14 @@ def unpack(path: Path, folder: Path) -> int:
     return len(inputs)
 
 
+def packed_of(inputs: list[bytes]) -> bytes:
+    """The inputs as one, in their order."""
+    return b"".join(len(data).to_bytes(LENGTH_BYTES, "little") + data for data in inputs)
+
+
 def pack(folder: Path, path: Path) -> int:
     """Put the files of a folder into one, short ones first; how many there are."""
     inputs = sorted((file.read_bytes() for file in folder.iterdir()), key=lambda data: (len(data), data))
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(b"".join(len(data).to_bytes(LENGTH_BYTES, "little") + data for data in inputs))
+    path.write_bytes(packed_of(inputs))
     return len(inputs)
