@@ -7,7 +7,6 @@ Leaves a table on the terminal and, in build/demo, one annotated picture a frame
 and report.html, which holds everything in one file.
 """
 
-import os
 import time
 from collections.abc import Callable, Iterator
 from itertools import chain, islice
@@ -28,7 +27,7 @@ from sim.cosim.result import CosimResult
 from sim.cosim.run import FIRMWARES, run_cosim
 
 DEFAULT_OUT = Path("build/demo")
-GROUND_BAUD = "115200"
+GROUND_BAUD = 115200
 """At 57600 the ground gets PAD with every second frame alone; here it is asked what became of each."""
 Runner = Callable[..., CosimResult]
 
@@ -55,7 +54,9 @@ def demo(
         # Primes the thresholds: the first showing has none yet.
         images, millimetres = chain(islice(frames.open(), 1), images), [millimetres[0], *millimetres]
     _make_folder(out_dir)
-    result = runner(images, millimetres, firmware=firmware, repeat=repeat, out_dir=out_dir / "run")
+    result = runner(
+        images, millimetres, firmware=firmware, repeat=repeat, out_dir=out_dir / "run", ground_baud=GROUND_BAUD
+    )
     autopilot = decode(result.uart0.data, result.uart0.done_ns)
     ground = decode(result.uart1.data, result.uart1.done_ns)
     rows = collect(frames, counted, result.frames, autopilot, ground)
@@ -108,7 +109,6 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--out", type=Path, default=DEFAULT_OUT, help="folder for pictures and report")
     parser.add_argument("--limit", type=int, help="take at most this many frames")
     options = parser.parse_args(arguments)
-    os.environ.setdefault("GROUND_BAUD", GROUND_BAUD)
     start = time.monotonic()
     frames = open_frames(options.frames, options.limit)
     altitudes = altitudes_m(frames, options.altitude)

@@ -3,6 +3,8 @@
 #ifndef TOUCHDOWN_BOARD_H
 #define TOUCHDOWN_BOARD_H
 
+#include <assert.h>
+
 // Half of the CPU clock of 650 MHz. Only time without the PL and the length of
 // a tick depend on it: with the PL, the PL's microseconds are the time.
 #define BOARD_PERIPHCLK_HZ 325000000U
@@ -16,9 +18,8 @@
 #define BOARD_GROUND_BAUD 57600U // UART1
 #endif
 // Below, the rates do not fit.
-#if BOARD_AUTOPILOT_BAUD < 57600U || BOARD_GROUND_BAUD < 57600U
-#error "AUTOPILOT_BAUD and GROUND_BAUD have to be 57600 or more"
-#endif
+static_assert(BOARD_AUTOPILOT_BAUD >= 57600U && BOARD_GROUND_BAUD >= 57600U,
+              "AUTOPILOT_BAUD and GROUND_BAUD have to be 57600 or more");
 
 #define BOARD_FRAME_WIDTH_PX 1280U
 #define BOARD_FRAME_HEIGHT_PX 720U

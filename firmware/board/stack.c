@@ -14,6 +14,7 @@ uint32_t stack_used_bytes(void)
     const size_t words = (size_t)((uintptr_t)stack_top - (uintptr_t)stack_bottom) / sizeof(uint32_t);
     size_t untouched = 0U;
 
+    // Bounded: by the words of the stack.
     while (untouched < words && stack_bottom[untouched] == PAINT) {
         untouched++;
     }

@@ -403,10 +403,10 @@ void app_on_complaints(struct app *app, const struct app_complaints *complaints,
 
 static void ask_for_time(struct app *app, uint64_t now_us)
 {
-    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
     int64_t request_ns;
 
     if (autopilot_is_heard(&app->flight.autopilot, now_us) && timesync_ask(&app->timesync, now_us, &request_ns)) {
+        uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
         links_send(&app->links, APP_LINK_AUTOPILOT, bytes,
                    mavlink_out_timesync_request(&app->links.out[APP_LINK_AUTOPILOT], request_ns, bytes));
     }

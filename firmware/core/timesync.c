@@ -17,10 +17,9 @@ void timesync_init(struct timesync *sync)
 
 static const struct timesync_sample *best(const struct timesync *sync)
 {
-    const uint32_t count = sync->taken < TIMESYNC_SAMPLES ? sync->taken : TIMESYNC_SAMPLES;
     const struct timesync_sample *least = NULL;
 
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < TIMESYNC_SAMPLES && i < sync->taken; i++) {
         if (least == NULL || sync->samples[i].round_trip_us < least->round_trip_us) {
             least = &sync->samples[i];
         }

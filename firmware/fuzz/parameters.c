@@ -99,7 +99,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 
     sent_init(&sent, &flight);
     links_init(&links, &port);
-    flight_init(&flight, 0U);
+    flight_init(&flight, rates_of(RATES_AUTOPILOT, 0U), 0U);
     while (input.left != 0U) {
         const uint8_t what = input_u8(&input);
 

@@ -164,9 +164,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 
         if (attitude >= 200U) {
             const double roll_rad = (double)input_float(&input);
-            attitude_set(&app.attitude, roll_rad, (double)input_float(&input), now_us);
+            attitude_set(&app.attitude, roll_rad, (double)input_float(&input), now_us, now_us);
         } else if (attitude >= 100U) {
-            attitude_set(&app.attitude, (double)(attitude - 150) / 100.0, 0.0, now_us);
+            attitude_set(&app.attitude, (double)(attitude - 150) / 100.0, 0.0, now_us, now_us);
         }
         if (attitude % 4U == 3U) {
             next = record;

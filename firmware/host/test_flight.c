@@ -65,7 +65,7 @@ static void start(void)
 {
     wire_open(&links);
     now_us = 10U * (uint64_t)SECOND;
-    flight_init(&flight, now_us);
+    flight_init(&flight, rates_of(RATES_AUTOPILOT, 0U), now_us);
     attitude = (struct attitude){.known = false};
     lidar = (struct lidar_reading){.valid = true, .distance_mm = 1500U};
 }
@@ -139,7 +139,7 @@ static void frame(double forward_m, double down_m, double angle_deg, bool lidar_
         .forward_m = forward_m / 2.0, .depth_m = down_m / 2.0, .height_m = down_m / 2.0, .angle_deg = angle_deg};
     const struct altitude altitude = {.height_m = down_m, .lidar_implausible = !lidar_agrees};
 
-    flight_on_frame(&flight, &attitude, &pad, &altitude, now_us);
+    flight_on_frame(&flight, &attitude, &pad, &altitude, now_us, now_us);
 }
 
 static void test_frames(void)
@@ -160,7 +160,7 @@ static void test_frames(void)
     CHECK(flight.known.pad_row == UINT32_MAX);
     test_case("a frame without the pad begins the count anew");
     now_us += TICK_US;
-    flight_on_frame(&flight, &attitude, NULL, &(struct altitude){.height_m = 2.0}, now_us);
+    flight_on_frame(&flight, &attitude, NULL, &(struct altitude){.height_m = 2.0}, now_us, now_us);
     CHECK(flight.known.pad_row == 0U && flight.known.record_us == now_us && flight.known.pad_us == now_us - TICK_US);
 }
 
@@ -172,7 +172,7 @@ static void fly(uint64_t for_us, uint32_t mode, double forward_m, double down_m)
     while (now_us < end_us) {
         now_us += TICK_US;
         heartbeat(mode, true);
-        attitude_set(&attitude, 0.0, 0.0, now_us);
+        attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
         lidar.distance_mm = (uint32_t)(1000.0 * down_m);
         frame(forward_m, down_m, 0.0, true);
         flight_tick(&flight, &links, &attitude, &lidar, now_us);
@@ -226,7 +226,7 @@ static void test_streams(void)
     CHECK(flight.known.lidar_us == 0U);
     test_case("the LiDAR's height is along the plumb line");
     lidar = (struct lidar_reading){.valid = true, .distance_mm = 2000U};
-    attitude_set(&attitude, 0.3, 0.4, now_us);
+    attitude_set(&attitude, 0.3, 0.4, now_us, now_us);
     flight_tick(&flight, &links, &attitude, &lidar, now_us);
     NEAR(flight.known.lidar_m, 2.0 * cos(0.3) * cos(0.4), 1e-9);
 }

@@ -14,7 +14,7 @@ static struct links links;
 static void start(void)
 {
     wire_open(&links);
-    flight_init(&flight, 0U);
+    flight_init(&flight, rates_of(RATES_AUTOPILOT, 0U), 0U);
 }
 
 // Returns the MAV_RESULT of the answer, -1 without one, and what was asked for in `asked`.

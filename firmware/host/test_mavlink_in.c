@@ -53,14 +53,14 @@ static void test_of_the_autopilot(void)
     CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
 }
 
-static void test_timesync(void)
+static void test_timesync_request(void)
 {
-    test_case("a request for the time, and an answer to someone else");
+    test_case("a request for the time, and an answer");
     mavlink_msg_timesync_pack(FROM_AUTOPILOT, &sent, 0, -5000000000);
     const struct mavlink_in_message got = wire_receive(&sent);
-    CHECK(got.kind == MAVLINK_IN_TIMESYNC_REQUEST && got.as.request_ns == -5000000000);
+    CHECK(got.kind == MAVLINK_IN_TIMESYNC_REQUEST && got.as.timesync.request_ns == -5000000000);
     mavlink_msg_timesync_pack(FROM_AUTOPILOT, &sent, 1, 2);
-    CHECK(kind_of_sent() == MAVLINK_IN_NOTHING);
+    CHECK(kind_of_sent() == MAVLINK_IN_TIMESYNC_ANSWER);
 }
 
 static void test_ack(void)
@@ -160,7 +160,7 @@ static void test_damage(void)
 void test_mavlink_in(void)
 {
     test_of_the_autopilot();
-    test_timesync();
+    test_timesync_request();
     test_ack();
     test_command();
     test_parameters_of_the_protocol();

@@ -106,11 +106,15 @@ def build_stages() -> Path:
     return STAGES
 
 
-def build_firmware() -> Path:
-    """The ELF that also runs on the board."""
+def build_firmware(ground_baud: int | None = None) -> Path:
+    """The ELF that also runs on the board; in a folder of its own where the ground's wire has another rate."""
     need("arm-none-eabi-gcc")
-    _make("firmware", ["-C", "firmware", "elf"])
-    return ELF
+    if ground_baud is None:
+        _make("firmware", ["-C", "firmware", "elf"])
+        return ELF
+    out = ELF.parent.with_name(f"firmware-{ground_baud}")
+    _make(out.name, ["-C", "firmware", f"OUT={out}", f"GROUND_BAUD={ground_baud}", "elf"])
+    return out / ELF.name
 
 
 def symbols(elf: Path) -> dict[str, int]:

@@ -24,7 +24,9 @@ def _say(text: str) -> None:
     print(text, flush=True)
 
 
-def _command(firmware: str, frames: FrameList, out_dir: Path, frame_period_us: int, tail_us: int) -> list[str]:
+def _command(
+    firmware: str, frames: FrameList, out_dir: Path, *, frame_period_us: int, tail_us: int, ground_baud: int | None
+) -> list[str]:
     arguments = {
         "frames": frames.path,
         "out": out_dir,
@@ -34,7 +36,7 @@ def _command(firmware: str, frames: FrameList, out_dir: Path, frame_period_us: i
     if firmware == "host":
         return [str(build_host()), *(f"{key}={value}" for key, value in arguments.items())]
     qemu = find_qemu()
-    return qemu_command(qemu, build_firmware(), build_plugin(), arguments, out_dir)
+    return qemu_command(qemu, build_firmware(ground_baud), build_plugin(), arguments, out_dir)
 
 
 def _shown(events: Path) -> int:
@@ -73,6 +75,7 @@ def run_cosim(
     frame_period_us: int = 0,
     tail_us: int = 30_000,
     from_autopilot: Iterable[bytes] = (),
+    ground_baud: int | None = None,
     progress: Callable[[str], None] = _say,
 ) -> CosimResult:
     """Show frames to the verilated landing_core and run the firmware on what it finds.
@@ -86,6 +89,7 @@ def run_cosim(
         frame_period_us: least time from frame to frame; 0 = what 720p60 blanking gives (16667 us at 1280x720).
         tail_us: simulated time after the last pixel.
         from_autopilot: what the autopilot says on UART0 before the record of each frame; with firmware="host" alone.
+        ground_baud: of UART1, with firmware="qemu"; None = what the board has.
         progress: is told in one line how far the run is.
 
     Raises:
@@ -106,7 +110,9 @@ def run_cosim(
         find_qemu()
     frame_list = write_frame_list(out_dir / "frames.tdf", frames, altitudes_mm, repeat, messages)
     progress(f"co-simulation: building what is missing (firmware: {firmware})")
-    command = _command(firmware, frame_list, out_dir, frame_period_us, tail_us)
+    command = _command(
+        firmware, frame_list, out_dir, frame_period_us=frame_period_us, tail_us=tail_us, ground_baud=ground_baud
+    )
     progress(f"co-simulation: {frame_list.shown} frames of {frame_list.width}x{frame_list.height}")
     start = time.monotonic()
     log = out_dir / "run.log"
