@@ -18,6 +18,8 @@
 #define READ_BYTES 64U
 #define COMPLAINTS_PERIOD_US 100000U
 #define VITALS_PERIOD_US 1000000U
+#define WAIT_MAX_US 1000U
+#define WAIT_TURNS 200U // more than 1 us, so that there are fewer looks than that
 
 _Static_assert((int)UARTS == (int)VITALS_WIRES, "each UART is a wire that is watched");
 
@@ -38,6 +40,27 @@ static bool write(void *context, enum app_link link, const uint8_t *bytes, size_
     return uart_write(uart_of(link), bytes, size);
 }
 
+static uint64_t clock_us(void)
+{
+    return has_hardware ? landing_hw_time_us() : timer_now_us();
+}
+
+// Not farther ahead than a frame takes to be told of: the PL may have been set back.
+static void wait_until(void *context, uint64_t time_us)
+{
+    (void)context;
+    for (uint32_t looks = 0U; looks < WAIT_MAX_US; looks++) {
+        const uint64_t now_us = clock_us();
+        if (now_us >= time_us || time_us - now_us > WAIT_MAX_US) {
+            return;
+        }
+        // Looks at the PL keep its bus busy.
+        for (uint32_t turn = 0U; turn < WAIT_TURNS; turn++) {
+            __asm__ volatile("nop");
+        }
+    }
+}
+
 static void read(enum app_link link, uint64_t now_us)
 {
     uint8_t bytes[READ_BYTES];
@@ -55,11 +78,6 @@ static void sleep_until_interrupt(void)
         __asm__ volatile("dsb\n\twfi" ::: "memory");
     }
     interrupts_enable();
-}
-
-static uint64_t clock_us(void)
-{
-    return has_hardware ? landing_hw_time_us() : timer_now_us();
 }
 
 // Why the run before this one ended, if not by its power.
@@ -154,6 +172,7 @@ int main(void)
 {
     static const struct app_port port = {
         .write = write,
+        .wait_until = wait_until,
         .context = NULL,
         .baud = {[APP_LINK_AUTOPILOT] = BOARD_AUTOPILOT_BAUD, [APP_LINK_GROUND] = BOARD_GROUND_BAUD},
     };

@@ -288,6 +288,9 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     if (found) {
         app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
+        const uint64_t release_us = release_of(&record->header);
+        release_note(&app->release, release_us);
+        links_wait_until(&app->links, release_us);
         send_landing_target(app, record, &pad, &altitude, now_us);
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
@@ -416,6 +419,10 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
 
+    // Whatever is due waits for 2 ms, rather than LANDING_TARGET for it.
+    if (release_is_near(&app->release, now_us)) {
+        return;
+    }
     if (due(&app->next_heartbeat_us, now_us, HEARTBEAT_PERIOD_US)) {
         for (int link = 0; link < APP_LINKS; link++) {
             links_send(&app->links, (enum app_link)link, bytes,

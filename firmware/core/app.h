@@ -18,6 +18,7 @@
 #include "mavlink_in.h"
 #include "mavlink_out.h"
 #include "record.h"
+#include "release.h"
 #include "timesync.h"
 #include "tracker.h"
 
@@ -103,6 +104,7 @@ struct app {
     struct attitude attitude;
     struct timesync timesync; // with the autopilot
     struct tracker tracker;
+    struct release release;
     struct pad_view last_view; // of the newest pad that was seen
     uint64_t last_view_us;     // start of its frame
     bool has_last_view;

@@ -18,6 +18,13 @@ void links_send(struct links *links, enum app_link link, const uint8_t *bytes, s
     }
 }
 
+void links_wait_until(const struct links *links, uint64_t time_us)
+{
+    if (links->port.wait_until != NULL) {
+        links->port.wait_until(links->port.context, time_us);
+    }
+}
+
 void links_say(struct links *links, enum mavlink_out_severity severity, const char *text)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];

@@ -16,6 +16,8 @@ struct app_port {
     // Takes a whole message, or drops it and returns false; never blocks, never
     // sends a part.
     bool (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
+    // Returns at `time_us`, or at once where that is past or too far ahead. NULL: always at once.
+    void (*wait_until)(void *context, uint64_t time_us);
     void *context;
     uint32_t baud[APP_LINKS]; // 0 = no wire that would set a limit
 };
@@ -30,6 +32,9 @@ struct links {
 void links_init(struct links *links, const struct app_port *port);
 
 void links_send(struct links *links, enum app_link link, const uint8_t *bytes, size_t size);
+
+// Lets time pass, where there is somebody who can wait.
+void links_wait_until(const struct links *links, uint64_t time_us);
 
 // A STATUSTEXT for the ground.
 void links_say(struct links *links, enum mavlink_out_severity severity, const char *text);

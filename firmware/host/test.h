@@ -38,6 +38,7 @@ void test_pad_view(void);
 void test_parameters(void);
 void test_rates(void);
 void test_record(void);
+void test_release(void);
 void test_record_torn(void);
 void test_shapes(void);
 void test_steering(void);

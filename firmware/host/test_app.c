@@ -26,6 +26,16 @@ static bool count(void *context, enum app_link link, const uint8_t *bytes, size_
     return !wire_is_full;
 }
 
+static uint64_t waited_until_us;
+static int targets_before_wait;
+
+static void wait_until(void *context, uint64_t time_us)
+{
+    (void)context;
+    waited_until_us = time_us;
+    targets_before_wait = messages[APP_LINK_AUTOPILOT];
+}
+
 static void start(void)
 {
     const struct app_port port = {.write = count, .context = NULL};
@@ -343,8 +353,34 @@ static void test_bytes(void)
     CHECK(app.attitude.known && app.attitude.roll_rad == 0.25 && app.attitude.pitch_rad == 0.125);
 }
 
+// A target leaves when it is due, and what else is due waits for it.
+static void test_waiting(void)
+{
+    const struct app_port port = {.write = count, .wait_until = wait_until, .context = NULL};
+    const struct scene scene = {.height_m = 1.0};
+
+    test_case("LANDING_TARGET waits for its time, the heartbeat for LANDING_TARGET");
+    memset(messages, 0, sizeof messages);
+    app_init(&app, &port, 0, NULL);
+    scene_clear(&record);
+    scene_paint_pad(&record, &scene);
+    record.header.scan_time_us = 16000U;
+    for (uint32_t i = 1U; i <= 2U; i++) {
+        record.header.frame_number = i;
+        record.header.start_time_us = 20000U * i;
+        CHECK(app_on_record(&app, &record, sizeof record, 20000U * i + 16100U) == 0);
+        CHECK(waited_until_us == 20000U * i + 16950U);
+        CHECK(targets_before_wait == (int)i - 1 && messages[APP_LINK_AUTOPILOT] == (int)i);
+    }
+    app_tick(&app, 76000U, NULL); // the next target is due at 76950
+    CHECK(messages[APP_LINK_AUTOPILOT] == 2);
+    app_tick(&app, 77500U, NULL);
+    CHECK(messages[APP_LINK_AUTOPILOT] == 3);
+}
+
 void test_app(void)
 {
+    test_waiting();
     test_health_of_the_board();
     test_fault();
     test_no_frames();

@@ -63,6 +63,7 @@ int main(void)
     test_parameters();
     test_rates();
     test_record();
+    test_release();
     test_record_torn();
     test_shapes();
     test_steering();
