@@ -222,6 +222,51 @@ static uint64_t exposed_us_of(const struct landing_result_header *header)
     return header->start_time_us + scan_us / 2U;
 }
 
+static void count_record(struct app *app, const struct landing_result_header *header, uint64_t now_us)
+{
+    app->last_frame_number = header->frame_number;
+    app->last_record_us = now_us;
+    app->health[APP_HEALTH_RECORDS]++;
+    app->health[APP_HEALTH_FRAMES_MALFORMED] = header->frames_malformed;
+    app->health[APP_HEALTH_FRAMES_OVERFLOW] = header->frames_overflow;
+    app->health[APP_HEALTH_OBJECTS_DROPPED] = header->objects_dropped;
+}
+
+// The thresholds are those of the frame before: after a change, a frame's own factor is not theirs yet.
+static uint32_t factor_of(struct app *app, const struct landing_result_header *header)
+{
+    const uint32_t factor = header->threshold_factor == app->factor_before ? app->factor_before : FACTOR_SEARCH_MIXED;
+
+    app->factor_before = header->threshold_factor;
+    return factor;
+}
+
+static struct detect_hint hint_of(const struct app *app, const struct landing_result_header *header,
+                                  const struct lidar_reading *lidar, uint32_t factor, uint64_t now_us)
+{
+    struct detect_hint hint = detect_no_hint;
+
+    hint.height_m = fusion_lidar_usable(lidar) ? 0.001 * (double)lidar->distance_mm : 0.0;
+    hint.searching = !factor_search_is_usual(factor);
+    // Without a fresh attitude the hint stays what it is without any.
+    (void)attitude_tilt(&app->attitude, exposed_us_of(header), now_us, &hint.tilt);
+    if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
+        header->start_time_us - app->last_view_us <= LAST_VIEW_US) {
+        hint.last = &app->last_view;
+    }
+    return hint;
+}
+
+static void release_landing_target(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
+                                   const struct altitude *altitude, uint64_t now_us)
+{
+    const uint64_t release_us = release_of(&record->header);
+
+    release_note(&app->release, release_us);
+    links_wait_until(&app->links, release_us);
+    send_landing_target(app, record, pad, altitude, now_us);
+}
+
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us)
 {
     struct pad_estimate pad;
@@ -235,12 +280,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     if (app->last_frame_number != 0U && record->header.frame_number - app->last_frame_number - 1U > INT32_MAX) {
         return RECORD_E_OLD;
     }
-    app->last_frame_number = record->header.frame_number;
-    app->last_record_us = now_us;
-    app->health[APP_HEALTH_RECORDS]++;
-    app->health[APP_HEALTH_FRAMES_MALFORMED] = record->header.frames_malformed;
-    app->health[APP_HEALTH_FRAMES_OVERFLOW] = record->header.frames_overflow;
-    app->health[APP_HEALTH_OBJECTS_DROPPED] = record->header.objects_dropped;
+    count_record(app, &record->header, now_us);
     const struct lidar_reading lidar = {
         .valid = (record->header.flags & LANDING_HEADER_FLAGS_ALTITUDE_VALID_MASK) != 0U,
         .distance_mm = record->header.altitude_mm,
@@ -251,19 +291,8 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     camera.height_px = (double)record->header.frame_size_height;
     adapt_min_area(app, &record->header, &lidar, &camera);
     const uint64_t exposed_us = exposed_us_of(&record->header);
-    struct detect_hint hint = detect_no_hint;
-    hint.height_m = fusion_lidar_usable(&lidar) ? 0.001 * (double)lidar.distance_mm : 0.0;
-    // The thresholds are those of the frame before: after a change, a frame's own factor is not theirs yet.
-    const uint32_t factor =
-        record->header.threshold_factor == app->factor_before ? app->factor_before : FACTOR_SEARCH_MIXED;
-    app->factor_before = record->header.threshold_factor;
-    hint.searching = !factor_search_is_usual(factor);
-    // Without a fresh attitude the hint stays what it is without any.
-    (void)attitude_tilt(&app->attitude, exposed_us, now_us, &hint.tilt);
-    if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
-        record->header.start_time_us - app->last_view_us <= LAST_VIEW_US) {
-        hint.last = &app->last_view;
-    }
+    const uint32_t factor = factor_of(app, &record->header);
+    const struct detect_hint hint = hint_of(app, &record->header, &lidar, factor, now_us);
     const bool seen = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
     const enum track_result track =
         (app->detect_options & DETECT_TRACK) != 0U
@@ -288,10 +317,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     if (found) {
         app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
-        const uint64_t release_us = release_of(&record->header);
-        release_note(&app->release, release_us);
-        links_wait_until(&app->links, release_us);
-        send_landing_target(app, record, &pad, &altitude, now_us);
+        release_landing_target(app, record, &pad, &altitude, now_us);
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
     return 0;
