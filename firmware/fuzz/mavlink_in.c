@@ -64,8 +64,11 @@ static bool same(const struct frame *frame, const struct mavlink_in_message *mes
     case MAVLINK_IN_NOTHING:
         return false;
     case MAVLINK_IN_TIMESYNC_REQUEST:
-        return frame->message == MAVLINK_MSG_ID_TIMESYNC && frame_u32(frame, 0U) == 0U && frame_u32(frame, 4U) == 0U &&
-               memcmp(&message->as.request_ns, payload + 8, sizeof message->as.request_ns) == 0;
+    case MAVLINK_IN_TIMESYNC_ANSWER:
+        return frame->message == MAVLINK_MSG_ID_TIMESYNC &&
+               (message->kind == MAVLINK_IN_TIMESYNC_ANSWER) == (message->as.timesync.answer_ns != 0) &&
+               memcmp(&message->as.timesync.answer_ns, payload, sizeof message->as.timesync.answer_ns) == 0 &&
+               memcmp(&message->as.timesync.request_ns, payload + 8, sizeof message->as.timesync.request_ns) == 0;
     case MAVLINK_IN_HEARTBEAT:
         return frame->message == MAVLINK_MSG_ID_HEARTBEAT &&
                message->as.heartbeat.custom_mode == frame_u32(frame, 0U) && message->as.heartbeat.type == payload[4] &&
