@@ -16,11 +16,11 @@ from sim.world.camera import Camera
 from sim.world.pose import Pose
 
 TRACKED_LIMIT = 300_000
-"""A frame in which the pad is where it was."""
+"""A frame in which the pad is where it was: from the copy of its record to a LANDING_TARGET that waits to be sent."""
 SEARCH_LIMIT = 1_000_000
 """A frame in which it may be anywhere: 2 ms at 2 ns an instruction, well before the next frame."""
 INTERRUPT_LIMIT = 1_000
-SPANS = {"frame": ("landing_hw_take_frame", "landing_hw_adapt"), "interrupt": ("interrupt_entry", "interrupt_return")}
+SPANS = {"frame": ("landing_hw_take_frame", "wait_until"), "interrupt": ("interrupt_entry", "interrupt_return")}
 _FRAME_US = 70_000
 
 
