@@ -3,12 +3,11 @@
 // the autopilot and the ground say comes from another process, which in turn gets
 // what the firmware says. landing_core is built with sim/verilated/stand_ins.
 //
-// Each process waits for the other: sim/flight/zynq.py sends one GO, the machine runs to
-// the time in it and answers with one BEEN. Integers are little endian.
+// Each process waits for the other: sim/flight/board.py sends one GO, the machine runs
+// to the time in it and answers with one BEEN. Integers are little endian.
 //   GO    u64 run to, ns; u32 altitude_mm; i32 frame; u32 bytes to UART0; u32 bytes to UART1; the bytes; the objects
 //         frame: how many objects of 64 bytes a frame has that starts now; -1 = none starts; -2 = a malformed one
-//   BEEN  u32 bytes from UART0; u32 bytes from UART1; u64 frame, ns; the bytes whose stop bits have ended
-//         frame: from the newest record's end in memory to the first byte about it to the ground; 0 = not yet
+//   BEEN  u32 bytes from UART0; u32 bytes from UART1; the bytes whose stop bits have ended
 //
 // Arguments: world=<path of a Unix socket>
 #include <sys/socket.h>
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -101,16 +99,11 @@ class FlightMachine final : private ShapesCameraHolder, public Machine {
 public:
     explicit FlightMachine(const Arguments& arguments) : Machine(config(), camera), world_(arguments.text("world")) {}
 
-    void uart(unsigned port, uint64_t push_ns, uint64_t done_ns, uint8_t byte) override {
+    void uart(unsigned port, uint64_t, uint64_t done_ns, uint8_t byte) override {
         sent_[port].push_back({done_ns, byte});
-        if (port == 1 && frame_ns_ == 0) frame_ns_ = push_ns - record_ns_;
     }
     void last_pixel(uint32_t, uint64_t) override { record_due_ = true; }
-    void record(uint64_t, uint64_t time_ns) override {
-        record_due_ = false;
-        record_ns_ = time_ns;
-        frame_ns_ = 0;
-    }
+    void record(uint64_t, uint64_t) override { record_due_ = false; }
 
 private:
     struct Byte {
@@ -147,8 +140,7 @@ private:
     }
 
     void tell(uint64_t now_ns) {
-        std::vector<uint8_t> answer(2 * sizeof(uint32_t) + sizeof frame_ns_);
-        std::memcpy(answer.data() + 2 * sizeof(uint32_t), &frame_ns_, sizeof frame_ns_);
+        std::vector<uint8_t> answer(2 * sizeof(uint32_t));
         for (unsigned port = 0; port < 2; ++port) {
             uint32_t count = 0;
             for (; !sent_[port].empty() && sent_[port].front().time_ns <= now_ns; ++count) {
@@ -191,8 +183,6 @@ private:
     uint64_t free_ns_[2] = {};
     uint64_t until_ns_ = 0;
     uint64_t frame_end_ns_ = 0;
-    uint64_t record_ns_ = 0;
-    uint64_t frame_ns_ = 0;
     bool record_due_ = false;
 };
 
@@ -201,11 +191,6 @@ private:
 
 extern "C" __attribute__((visibility("default"))) int qemu_plugin_install(uint64_t, const qemu::PluginInfo*, int count,
                                                                           char** arguments) {
-    using namespace touchdown;
-    try {
-        Machine::install(new FlightMachine(Arguments(count, arguments)));
-    } catch (const std::exception& error) {
-        fail(error.what());
-    }
+    touchdown::Machine::install<touchdown::FlightMachine>(touchdown::Arguments(count, arguments));
     return 0;
 }

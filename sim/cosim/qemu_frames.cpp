@@ -2,7 +2,6 @@
 // The plugin that shows a list of frames and logs what happens.
 //
 // Arguments: frames=<file> out=<folder> frame-clocks=<n> tail-us=<n>
-#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -93,11 +92,6 @@ private:
 
 extern "C" __attribute__((visibility("default"))) int qemu_plugin_install(uint64_t, const qemu::PluginInfo*, int count,
                                                                           char** arguments) {
-    using namespace touchdown;
-    try {
-        Machine::install(new FramesMachine(Arguments(count, arguments)));
-    } catch (const std::exception& error) {
-        fail(error.what());
-    }
+    touchdown::Machine::install<touchdown::FramesMachine>(touchdown::Arguments(count, arguments));
     return 0;
 }

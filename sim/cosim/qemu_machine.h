@@ -10,11 +10,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <exception>
 #include <string>
 
 #include "sim/cosim/qemu_abi.h"
 #include "sim/cosim/run_log.h"
+#include "sim/verilated/arguments.h"
 #include "sim/verilated/board.h"
 #include "sim/verilated/camera.h"
 #include "sim/verilated/landing_model.h"
@@ -49,10 +50,17 @@ private:
 
 class Machine : public Board {
 public:
-    // To be called while QEMU loads the plugin. Never returns a machine that cannot
-    // work: `fail` says why. `machine` lives as long as the process, because QEMU
+    // To be called while QEMU loads the plugin. Returns only with a machine that can
+    // work: `fail` says why it cannot. It lives as long as the process, because QEMU
     // keeps pointers into it.
-    static void install(Machine* machine);
+    template <typename Kind>
+    static void install(const Arguments& arguments) {
+        try {
+            install(new Kind(arguments));
+        } catch (const std::exception& error) {
+            fail(error.what());
+        }
+    }
 
     void write_memory(uint64_t address, const uint8_t* bytes, size_t count) override;
     void read_memory(uint64_t address, uint8_t* bytes, size_t count) override;
@@ -72,6 +80,7 @@ protected:
     UartTap& tap(unsigned port) { return taps_[port]; }
 
 private:
+    static void install(Machine* machine);
     void map();
     template <typename Action>
     uint64_t guarded(Action action);

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What flies: the firmware's core in this process, or the board's ELF on QEMU's Zynq with landing_core beside it."""
 
-import contextlib
 import shutil
 import socket
 import struct
 import subprocess
 import tempfile
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Protocol
@@ -23,6 +23,7 @@ from sim.cosim.qemu import find_qemu, last_sentence, qemu_command
 SIZE = (1280, 720)
 _NO_FRAME, _MALFORMED = -1, -2
 _WAIT_S = 60.0
+_LOOK_S = 0.1
 
 
 class Board(Protocol):
@@ -109,11 +110,7 @@ class HostBoard:
 
 
 class ZynqBoard:
-    """The ELF on QEMU; what lies between camera and objects has stand-ins, the rest of landing_core is the RTL.
-
-    Attributes:
-        frame_ns: From the end of the newest record in memory to the first byte about it to the ground; 0 = not yet.
-    """
+    """The ELF on QEMU; what lies between camera and objects has stand-ins, the rest of landing_core is the RTL."""
 
     min_area_px = 0
     """landing_core leaves out what is too small."""
@@ -123,35 +120,46 @@ class ZynqBoard:
 
         Args:
             spans: Instructions to be counted, from one symbol of the ELF to another; see `passes`.
+
+        Raises:
+            UserError: a tool is missing, something cannot be built, or QEMU does not start, with what it said.
         """
+        qemu, elf, plugin = find_qemu(), build_firmware(), build_flight_plugin()
         self._folder = Path(tempfile.mkdtemp(prefix="touchdown-"))
         self._heard = {AUTOPILOT: b"", GROUND: b""}
-        self.frame_ns = 0
         self._frame = _NO_FRAME
         self._objects = b""
+        self._wire: socket.socket | None = None
+        self._log = self._folder / "run.log"
         path = self._folder / "world"
-        with socket.socket(socket.AF_UNIX) as door:
+        command = qemu_command(qemu, elf, plugin, {"world": path}, self._folder, log_uarts=False)
+        command += self._meter(elf, spans) if spans else []
+        with socket.socket(socket.AF_UNIX) as door, self._log.open("w") as log:
             door.bind(str(path))
             door.listen(1)
-            door.settimeout(_WAIT_S)
-            command = qemu_command(
-                find_qemu(), build_firmware(), build_flight_plugin(), {"world": path}, self._folder, log_uarts=False
-            )
-            command += self._meter(spans) if spans else []
-            self._log = self._folder / "run.log"
-            with self._log.open("w") as log:
-                self._process = subprocess.Popen(
-                    command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT
-                )
+            self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
             try:
-                self._wire, _ = door.accept()
-            except TimeoutError:
+                self._wire = self._opened(door)
+            except UserError:
                 self.close()
-                raise UserError(f"QEMU does not start within {_WAIT_S:g} s; is the machine overloaded?") from None
-        self._wire.settimeout(_WAIT_S)
+                raise
 
-    def _meter(self, spans: Mapping[str, tuple[str, str]]) -> list[str]:
-        addresses = symbols(build_firmware())
+    def _opened(self, door: socket.socket) -> socket.socket:
+        door.settimeout(_LOOK_S)
+        deadline = time.monotonic() + _WAIT_S
+        while time.monotonic() < deadline:
+            try:
+                wire, _ = door.accept()
+            except TimeoutError:
+                if self._process.poll() is not None:
+                    raise UserError(f"QEMU ended: {last_sentence(self._log) or 'it did not say why'}") from None
+            else:
+                wire.settimeout(_WAIT_S)
+                return wire
+        raise UserError(f"QEMU does not start within {_WAIT_S:g} s; is the machine overloaded?")
+
+    def _meter(self, elf: Path, spans: Mapping[str, tuple[str, str]]) -> list[str]:
+        addresses = symbols(elf)
         wanted = "".join(f",{name}={addresses[a]:x}-{addresses[b]:x}" for name, (a, b) in spans.items())
         return ["-plugin", f"file={build_meter_plugin()},out={self._folder / 'meter.txt'}{wanted}"]
 
@@ -179,7 +187,7 @@ class ZynqBoard:
         numbers = (1000 * now_us, lidar_mm or 0, self._frame, len(heard[0]), len(heard[1]))
         try:
             self._wire.sendall(struct.pack("<QIiII", *numbers) + heard[0] + heard[1] + self._objects)
-            *counts, self.frame_ns = struct.unpack("<IIQ", self._take(16))
+            counts = struct.unpack("<II", self._take(8))
             sent = {link: self._take(counts[link]) for link in (AUTOPILOT, GROUND)}
         except OSError as error:
             self._process.wait(_WAIT_S)
@@ -201,7 +209,7 @@ class ZynqBoard:
         """See `Board`."""
         self._process.kill()
         self._process.wait()
-        with contextlib.suppress(AttributeError):
+        if self._wire is not None:
             self._wire.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The ELF on QEMU and the firmware's core in this process say the same of what they see."""
 
+from pathlib import Path
+
 import pytest
 
 from firmware.library import AUTOPILOT, GROUND, make
@@ -74,3 +76,14 @@ def test_a_qemu_that_ends_is_one_sentence() -> None:
             board.run_to(9_000, 1000)
     finally:
         board.close()
+
+
+def test_a_qemu_that_does_not_come_up_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def command(*_: object, **__: object) -> list[str]:
+        return ["sh", "-c", "echo 'touchdown: no such luck.' >&2; exit 1"]
+
+    monkeypatch.setattr("sim.flight.board.qemu_command", command)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    with pytest.raises(UserError, match="QEMU ended: no such luck"):
+        ZynqBoard()
+    assert list(tmp_path.iterdir()) == []
