@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "bounds.h"
+
 // Beyond it no one lands, and the tangents grow without bound.
 #define ANGLE_MAX_RAD 1.0
 // Of the message, of the camera's mounting, and of the ground, which is not quite level.
@@ -53,7 +55,7 @@ void attitude_set(struct attitude *attitude, double roll_rad, double pitch_rad, 
 
 static double on_line(double from, double to, double share)
 {
-    return fmin(fmax(from + (to - from) * share, -ANGLE_MAX_RAD), ANGLE_MAX_RAD);
+    return at_most(at_least(from + (to - from) * share, -ANGLE_MAX_RAD), ANGLE_MAX_RAD);
 }
 
 // `time_us` is not before `from`.
