@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "app.h"
 #include "board.h"
@@ -38,6 +39,12 @@ static bool write(void *context, enum app_link link, const uint8_t *bytes, size_
     (void)context;
     // Late messages are worse than lost ones: what does not fit is dropped.
     return uart_write(uart_of(link), bytes, size);
+}
+
+static void keep_parameters(void *context, const uint8_t *bytes, size_t size)
+{
+    (void)context;
+    memcpy(keep.parameters, bytes, size <= sizeof keep.parameters ? size : 0U);
 }
 
 static uint64_t clock_us(void)
@@ -162,7 +169,6 @@ static void round_of_main_loop(void)
     read(APP_LINK_AUTOPILOT, now_us);
     read(APP_LINK_GROUND, now_us);
     tick(now_us);
-    (void)app_parameters_to_keep(&app, keep.parameters);
     now_us = clock_us();
     feed_watchdog(now_us);
     vitals_round(&vitals, woke_us, now_us);
@@ -173,6 +179,7 @@ int main(void)
     static const struct app_port port = {
         .write = write,
         .wait_until = wait_until,
+        .keep = keep_parameters,
         .context = NULL,
         .baud = {[APP_LINK_AUTOPILOT] = BOARD_AUTOPILOT_BAUD, [APP_LINK_GROUND] = BOARD_GROUND_BAUD},
     };

@@ -60,16 +60,6 @@ void app_load_parameters(struct app *app, const uint8_t *bytes, size_t size)
     (void)parameters_load(&app->flight.parameters, bytes, size);
 }
 
-bool app_parameters_to_keep(struct app *app, uint8_t *bytes)
-{
-    if (!app->flight.parameters_changed) {
-        return false;
-    }
-    app->flight.parameters_changed = false;
-    parameters_store(&app->flight.parameters, bytes);
-    return true;
-}
-
 void app_on_crash(struct app *app, uint32_t kind, uint32_t address)
 {
     struct text text = {.length = 0U};

@@ -125,9 +125,6 @@ void app_init(struct app *app, const struct app_port *port, uint64_t now_us, con
 // Parameters as they were kept over a restart, if they were. Before anything else happens.
 void app_load_parameters(struct app *app, const uint8_t *bytes, size_t size);
 
-// True, with PARAMETERS_STORED_BYTES to be kept, when the ground has set one since the last call.
-bool app_parameters_to_keep(struct app *app, uint8_t *bytes);
-
 // Says why the run before this one ended.
 void app_on_crash(struct app *app, uint32_t kind, uint32_t address);
 

@@ -30,7 +30,6 @@ struct flight {
     struct autopilot autopilot;
     struct landing landing;
     struct parameters parameters;
-    bool parameters_changed; // since the board last kept them
     struct landing_known known;
     bool switch_known;
     bool switch_on;

@@ -81,6 +81,14 @@ static void say_parameter(const struct flight *flight, struct links *links, enum
                                      (uint16_t)PARAMETERS_COUNT, bytes));
 }
 
+static void keep_parameters(const struct flight *flight, const struct links *links)
+{
+    uint8_t bytes[PARAMETERS_STORED_BYTES];
+
+    parameters_store(&flight->parameters, bytes);
+    links_keep(links, bytes, sizeof bytes);
+}
+
 void ground_on_parameter(struct flight *flight, struct links *links, enum app_link link,
                          const struct mavlink_in_message *message)
 {
@@ -100,12 +108,13 @@ void ground_on_parameter(struct flight *flight, struct links *links, enum app_li
                               ? parameters_set(&flight->parameters, (size_t)index, param->value)
                               : PARAMETERS_E_RANGE;
 
-        flight->parameters_changed = flight->parameters_changed || error == 0;
-        if (error != 0) {
+        if (error == 0) {
+            keep_parameters(flight, links);
+        } else {
             links_say(links, MAVLINK_OUT_WARNING, "Touchdown: parameter beyond its limits");
         }
     }
-    // The answer to PARAM_SET is the value that holds from now on, changed or not.
+    // The answer to PARAM_SET is the value that holds from now on, changed or not, over a restart too.
     say_parameter(flight, links, link, (size_t)index);
 }
 

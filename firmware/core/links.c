@@ -25,6 +25,13 @@ void links_wait_until(const struct links *links, uint64_t time_us)
     }
 }
 
+void links_keep(const struct links *links, const uint8_t *bytes, size_t size)
+{
+    if (links->port.keep != NULL) {
+        links->port.keep(links->port.context, bytes, size);
+    }
+}
+
 void links_say(struct links *links, enum mavlink_out_severity severity, const char *text)
 {
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];

@@ -18,6 +18,8 @@ struct app_port {
     bool (*write)(void *context, enum app_link link, const uint8_t *bytes, size_t size);
     // Returns at `time_us`, or at once where that is past or too far ahead. NULL: always at once.
     void (*wait_until)(void *context, uint64_t time_us);
+    // Keeps a block of parameters over a restart; it is kept on return. NULL: nowhere to keep it.
+    void (*keep)(void *context, const uint8_t *bytes, size_t size);
     void *context;
     uint32_t baud[APP_LINKS]; // 0 = no wire that would set a limit
 };
@@ -35,6 +37,9 @@ void links_send(struct links *links, enum app_link link, const uint8_t *bytes, s
 
 // Lets time pass, where there is somebody who can wait.
 void links_wait_until(const struct links *links, uint64_t time_us);
+
+// Keeps a block of parameters, where there is a place for it.
+void links_keep(const struct links *links, const uint8_t *bytes, size_t size);
 
 // A STATUSTEXT for the ground.
 void links_say(struct links *links, enum mavlink_out_severity severity, const char *text);

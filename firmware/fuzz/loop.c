@@ -23,6 +23,8 @@ static struct landing_record record;
 static struct lidar_reading lidar;
 static bool lidar_there;
 static uint64_t now_us;
+static uint8_t kept[PARAMETERS_STORED_BYTES]; // at the last PARAM_SET
+static bool has_kept;
 
 // As the autopilot reports the modes of enum landing_mode.
 static const uint32_t ardupilot_modes[LANDING_MODES] = {5U, 4U, 9U, 17U};
@@ -158,18 +160,27 @@ static void complain(struct input *input)
     app_on_complaints(&app, &complaints, now_us);
 }
 
-static void keep(struct input *input)
+static void keep(void *context, const uint8_t *bytes, size_t size)
 {
-    uint8_t bytes[PARAMETERS_STORED_BYTES];
     struct parameters loaded;
+
+    (void)context;
+    DEMAND(size == sizeof kept);
+    memcpy(kept, bytes, sizeof kept);
+    parameters_init(&loaded);
+    DEMAND(parameters_load(&loaded, kept, sizeof kept) == 0);
+    DEMAND(memcmp(&loaded, &app.flight.parameters, sizeof loaded) == 0);
+    has_kept = true;
+}
+
+static void load_kept(struct input *input)
+{
     const uint8_t what = input_u8(input);
 
-    if (app_parameters_to_keep(&app, bytes)) {
-        parameters_init(&loaded);
-        DEMAND(parameters_load(&loaded, bytes, sizeof bytes) == 0);
-        DEMAND(memcmp(&loaded, &app.flight.parameters, sizeof loaded) == 0);
-        bytes[what % sizeof bytes] ^= what >> 4U;
-        app_load_parameters(&app, bytes, sizeof bytes);
+    if (has_kept) {
+        kept[what % sizeof kept] ^= what >> 4U;
+        app_load_parameters(&app, kept, sizeof kept);
+        has_kept = false;
     }
 }
 
@@ -317,7 +328,7 @@ static void step(struct input *input)
         set_lidar(input);
         break;
     case 14:
-        keep(input);
+        load_kept(input);
         complain(input);
         break;
     default:
@@ -330,12 +341,13 @@ static void step(struct input *input)
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     struct input input = {.bytes = bytes, .left = size};
-    const struct app_port port = {.write = sent_write, .context = &sent};
+    const struct app_port port = {.write = sent_write, .keep = keep, .context = &sent};
     const uint8_t how = input_u8(&input);
 
     sent_init(&sent, &app.flight);
     now_us = how / 2U;
     lidar_there = false;
+    has_kept = false;
     app_init(&app, &port, now_us, how == 255U ? "Touchdown: no landing_core, load the bitstream" : NULL);
     records_clear(&record);
     for (int i = 0; i < STEPS_MAX && input.left != 0U; i++) {

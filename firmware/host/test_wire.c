@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "parameters.h"
 #include "test.h"
 
 #define MESSAGES_MAX 1024
@@ -10,6 +11,8 @@
 static mavlink_message_t messages[MESSAGES_MAX];
 static enum app_link sent_on[MESSAGES_MAX];
 static int count;
+static uint8_t kept[PARAMETERS_STORED_BYTES];
+static int kept_after; // so many messages; -1 = nothing was
 static const mavlink_message_t none;
 
 mavlink_message_t wire_decode(const uint8_t *bytes, size_t size)
@@ -28,7 +31,7 @@ mavlink_message_t wire_decode(const uint8_t *bytes, size_t size)
     return message;
 }
 
-static bool keep(void *context, enum app_link link, const uint8_t *bytes, size_t size)
+static bool send(void *context, enum app_link link, const uint8_t *bytes, size_t size)
 {
     (void)context;
     CHECK(count < MESSAGES_MAX);
@@ -40,9 +43,17 @@ static bool keep(void *context, enum app_link link, const uint8_t *bytes, size_t
     return true;
 }
 
+static void keep(void *context, const uint8_t *bytes, size_t size)
+{
+    (void)context;
+    CHECK(size == sizeof kept);
+    memcpy(kept, bytes, size <= sizeof kept ? size : 0U);
+    kept_after = count;
+}
+
 void wire_open(struct links *links)
 {
-    const struct app_port port = {.write = keep, .context = NULL};
+    const struct app_port port = {.write = send, .keep = keep, .context = NULL};
 
     wire_clear();
     links_init(links, &port);
@@ -51,6 +62,7 @@ void wire_open(struct links *links)
 void wire_clear(void)
 {
     count = 0;
+    kept_after = -1;
 }
 
 int wire_count(enum app_link link, uint32_t message)
@@ -61,6 +73,12 @@ int wire_count(enum app_link link, uint32_t message)
         found += sent_on[i] == link && messages[i].msgid == message ? 1 : 0;
     }
     return found;
+}
+
+const uint8_t *wire_kept(int *sent_before)
+{
+    *sent_before = kept_after;
+    return kept_after >= 0 ? kept : NULL;
 }
 
 const mavlink_message_t *wire_last(enum app_link link, uint32_t message)

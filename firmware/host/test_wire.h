@@ -21,6 +21,9 @@ void wire_clear(void);
 // How many messages of a kind were sent on a link.
 int wire_count(enum app_link link, uint32_t message);
 
+// The block of parameters that was put away to be kept, and how many messages were sent before; NULL when none was.
+const uint8_t *wire_kept(int *sent_before);
+
 // The newest of a kind; all zeros when there is none.
 const mavlink_message_t *wire_last(enum app_link link, uint32_t message);
 
