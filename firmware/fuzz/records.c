@@ -79,6 +79,25 @@ static void paint(struct landing_record *record, const struct shape *shape)
     object->sum_xy = sum_of(area, shape->x_px * shape->y_px + shape->cov_xy);
 }
 
+// Whether the image of a whole shape ends within the frame.
+static bool is_inside(const struct shape *shape)
+{
+    const double reach_x = BOX_SIGMAS * sqrt(shape->cov_xx) + 1.0;
+    const double reach_y = BOX_SIGMAS * sqrt(shape->cov_yy) + 1.0;
+
+    return shape->x_px >= reach_x && shape->x_px <= WIDTH_PX - 1.0 - reach_x && shape->y_px >= reach_y &&
+           shape->y_px <= HEIGHT_PX - 1.0 - reach_y;
+}
+
+// Less than a pixel of a shape, or more than all, is no object.
+static bool is_seen(const struct pad_plane *plane, unsigned kind, bool cut, struct shape *shape)
+{
+    const bool seen = pad_plane_moments(plane, &camera_default, kind, cut, shape) > 0.0;
+
+    return seen && shape->area_px >= 1.0 && shape->area_px <= (double)(WIDTH_PX * HEIGHT_PX) &&
+           (cut || is_inside(shape));
+}
+
 void records_paint(struct landing_record *record, unsigned kinds, double x_px, double y_px, double height_m,
                    double yaw_rad, double tilt_x, double tilt_y)
 {
@@ -96,10 +115,9 @@ void records_paint(struct landing_record *record, unsigned kinds, double x_px, d
     for (unsigned kind = 1U; kind <= (unsigned)PAD_RING; kind *= 2U) {
         struct shape shape;
 
-        // Clipped, so that it lies within the frame; less than a pixel of it, or more than all, is no object.
         if ((kinds & kind) != 0U && !is_full(record) &&
-            pad_plane_moments(&plane, &camera_default, kind, true, &shape) > 0.0 && shape.area_px >= 1.0 &&
-            shape.area_px <= (double)(WIDTH_PX * HEIGHT_PX)) {
+            (is_seen(&plane, kind, false, &shape) ||
+             ((kinds & RECORDS_CUT) != 0U && is_seen(&plane, kind, true, &shape)))) {
             paint(record, &shape);
         }
     }
