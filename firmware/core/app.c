@@ -81,12 +81,6 @@ void app_on_vitals(struct app *app, const struct app_vitals *vitals)
     app->health[APP_HEALTH_FRAME_US] = vitals->frame_worst_us;
 }
 
-// The fused altitude scales what the pad's size says.
-static double scale_of(const struct pad_estimate *pad, const struct altitude *altitude)
-{
-    return altitude->height_m / pad->height_m;
-}
-
 static void send_landing_target(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,
                                 const struct altitude *altitude, uint64_t now_us)
 {
@@ -99,7 +93,7 @@ static void send_landing_target(struct app *app, const struct landing_record *re
         .time_us = record->header.start_time_us,
         .right = pad->right_m / pad->depth_m,
         .forward = pad->forward_m / pad->depth_m,
-        .height_m = pad->depth_m * scale_of(pad, altitude),
+        .height_m = pad->depth_m * altitude->pad_scale,
         .pad_width_m = RING_WIDTH_M,
     };
 
@@ -129,8 +123,8 @@ static void send_pad_array(struct app *app, const struct landing_record *record,
         values[APP_PAD_X_PX] = (float)pad->x_px;
         values[APP_PAD_Y_PX] = (float)pad->y_px;
         values[APP_PAD_ANGLE_DEG] = (float)pad->angle_deg;
-        values[APP_PAD_RIGHT_M] = (float)(pad->right_m * scale_of(pad, altitude));
-        values[APP_PAD_FORWARD_M] = (float)(pad->forward_m * scale_of(pad, altitude));
+        values[APP_PAD_RIGHT_M] = (float)(pad->right_m * altitude->pad_scale);
+        values[APP_PAD_FORWARD_M] = (float)(pad->forward_m * altitude->pad_scale);
         values[APP_PAD_DOUBT] = (float)pad->doubt;
         values[APP_PAD_SIZE_ALTITUDE_M] = (float)pad->height_m;
     }

@@ -103,7 +103,7 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
         known->pad_row = 0U;
         return;
     }
-    const double scale = altitude->height_m / pad->height_m;
+    const double scale = altitude->pad_scale;
 
     known->pad_us = now_us;
     known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;

@@ -10,6 +10,8 @@
 // length is known to 1 or 2 %, tilt and lens add as much.
 #define LIDAR_SIGMA_M 0.025
 #define PAD_SIGMA_RATIO 0.03
+// Where the ground below the camera and the pad beside it are the same plane, its tilt is known to this much.
+#define LEAN_SIGMA 0.025
 
 // A beam that meets grass, a leg or the edge of a step is wrong by more than noise.
 #define PLAUSIBLE_DIFFERENCE_RATIO 0.25
@@ -21,9 +23,17 @@ bool fusion_lidar_usable(const struct lidar_reading *lidar)
            lidar->distance_mm <= FUSION_LIDAR_MAX_MM;
 }
 
+static double weighted(double a, double sigma_a, double b, double sigma_b)
+{
+    const double weight_a = 1.0 / (sigma_a * sigma_a);
+    const double weight_b = 1.0 / (sigma_b * sigma_b);
+
+    return (a * weight_a + b * weight_b) / (weight_a + weight_b);
+}
+
 struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct pad_estimate *pad)
 {
-    struct altitude altitude = {.height_m = 0.0, .from_lidar = false, .from_pad = false, .lidar_implausible = false};
+    struct altitude altitude = {.height_m = 0.0, .pad_scale = 1.0};
     const bool usable = fusion_lidar_usable(lidar);
     const double lidar_m = (double)lidar->distance_mm * METRES_PER_MM;
 
@@ -43,10 +53,11 @@ struct altitude fusion_altitude(const struct lidar_reading *lidar, const struct 
         altitude.lidar_implausible = true;
         return altitude;
     }
-    const double pad_sigma_m = PAD_SIGMA_RATIO * pad->height_m;
-    const double lidar_weight = 1.0 / (LIDAR_SIGMA_M * LIDAR_SIGMA_M);
-    const double pad_weight = 1.0 / (pad_sigma_m * pad_sigma_m);
+    // From the pad to the point that the beam meets, or back, the plane's tilt adds its part.
+    const double lean_m = LEAN_SIGMA * hypot(pad->right_m, pad->forward_m);
+    const double size_m = PAD_SIGMA_RATIO * pad->height_m;
     altitude.from_lidar = true;
-    altitude.height_m = (lidar_m * lidar_weight + pad->height_m * pad_weight) / (lidar_weight + pad_weight);
+    altitude.height_m = weighted(lidar_m, LIDAR_SIGMA_M, pad->height_m, hypot(size_m, lean_m));
+    altitude.pad_scale = weighted(lidar_m, hypot(LIDAR_SIGMA_M, lean_m), pad->height_m, size_m) / pad->height_m;
     return altitude;
 }

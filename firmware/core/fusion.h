@@ -21,6 +21,7 @@ struct lidar_reading {
 
 struct altitude {
     double height_m; // camera above the pad (or ground) along body down; 0 = not known
+    double pad_scale; // what the pad's place is to be multiplied by; 1 = its size alone counts
     bool from_lidar;
     bool from_pad;
     bool lidar_implausible; // a fresh reading contradicts the pad's size and was left out

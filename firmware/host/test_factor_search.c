@@ -16,7 +16,7 @@ static void miss(int frames)
 
 static void test_walks(void)
 {
-    static const uint32_t others[] = {160U, 208U, 96U, 72U};
+    static const uint32_t others[] = {160U, 208U, 96U, 72U, 200U};
 
     search = (struct factor_search){0};
     for (int round = 0; round < 2; round++) {

@@ -137,7 +137,8 @@ static void frame(double forward_m, double down_m, double angle_deg, bool lidar_
 {
     const struct pad_estimate pad = {
         .forward_m = forward_m / 2.0, .depth_m = down_m / 2.0, .height_m = down_m / 2.0, .angle_deg = angle_deg};
-    const struct altitude altitude = {.height_m = down_m, .lidar_implausible = !lidar_agrees};
+    const struct altitude altitude = {
+        .height_m = down_m, .pad_scale = down_m / pad.height_m, .lidar_implausible = !lidar_agrees};
 
     flight_on_frame(&flight, &attitude, &pad, &altitude, now_us, now_us);
 }

@@ -20,12 +20,20 @@ void test_fusion(void)
     test_case("both agree: between them, nearer the surer one");
     CHECK(altitude.from_lidar && altitude.from_pad && !altitude.lidar_implausible);
     CHECK(altitude.height_m > 1.025 && altitude.height_m < 1.05);
+    NEAR(altitude.pad_scale, altitude.height_m, 1e-12);
+
+    test_case("a pad far to the side: the beam says less of its place, and its size less of the height");
+    const struct pad_estimate aside = {.height_m = 1.0, .right_m = 0.6, .forward_m = -0.8};
+    const struct altitude far = fusion_altitude(&lidar, &aside);
+    CHECK(far.height_m > altitude.height_m && far.height_m < 1.05);
+    CHECK(far.pad_scale > 1.0 && far.pad_scale < 1.025);
 
     test_case("LiDAR wrong by 2");
     lidar = reading(2000, 1000);
     altitude = fusion_altitude(&lidar, &pad);
     CHECK(!altitude.from_lidar && altitude.from_pad && altitude.lidar_implausible);
     NEAR(altitude.height_m, 1.0, 0.0);
+    NEAR(altitude.pad_scale, 1.0, 0.0);
     lidar = reading(500, 1000);
     CHECK(fusion_altitude(&lidar, &pad).lidar_implausible);
 

@@ -153,8 +153,8 @@ def test_the_golden_path_takes_the_factor_that_the_firmware_asks_for() -> None:
 def test_a_second_shows_every_factor_and_the_usual_one_again() -> None:
     blank = Shot("a", lambda: (np.full((720, 1280, 3), 90, np.uint8), Reference()), 1.0)
     told = factors(golden(develop(Unit("s", (blank,)))))
-    assert set(told[:47]) == {128, 160, 208, 96, 72}
-    assert told[47:] == [128] * 13
+    assert set(told[:54]) == {128, 160, 208, 96, 72, 200}
+    assert told[54:] == [128] * 6
 
 
 def test_rendered_frames_have_an_attitude_that_is_nearly_right_and_photographs_none(tmp_path: Path) -> None:
