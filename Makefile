@@ -54,7 +54,7 @@ demo: setup ## Photographs or the bundled clip through RTL and firmware to MAVLi
 
 .PHONY: test
 test: setup ## Everything that fits into 25 minutes on 2 cores
-	@$(PYTHON) -m pytest -n $(JOBS) -m "not full"
+	@$(PYTHON) -m pytest -n $(JOBS) --dist worksteal -m "not full"
 
 .PHONY: test-full
 test-full: setup ## Everything, a line an item, and the table of what each core passed: [PHOTOS="folder folder"]

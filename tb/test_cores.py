@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the cocotb tests of every core in every config and simulator. The environment variable SEED sets the seed.
 
-The first config runs in both simulators; of the others, the slower simulator's runs are left to `make test-full`.
+The first config runs in both simulators with `make test`, the others with `make test-full`.
 """
 
 from collections.abc import Iterator
@@ -14,8 +14,6 @@ from scripts.signoff import combine, leave_part
 from tb.common.cores import core_names, load_core
 from tb.common.runner import SIMULATORS, default_seed, run_core
 
-SLOWER = "icarus"
-
 
 def runs() -> Iterator[object]:
     """Yield one pytest parameter a run; a core that cannot be read gives one item, which then fails."""
@@ -25,8 +23,8 @@ def runs() -> Iterator[object]:
         except UserError:
             count = 1
         for index in range(count):
+            marks = [pytest.mark.full] if index > 0 else []
             for sim in SIMULATORS:
-                marks = [pytest.mark.full] if index > 0 and sim == SLOWER else []
                 yield pytest.param(name, index, sim, id=f"{name}-{index}-{sim}", marks=marks)
 
 

@@ -393,7 +393,7 @@ async def altitude_goes_into_the_record(dut: HierarchyObject) -> None:
 @cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
 async def lidar_faults_interrupt(dut: HierarchyObject) -> None:
     """A sensor that says nothing is a fault, one that is switched off is none, one that gives only glitches is."""
-    bench = Bench(dut)
+    bench = Bench(dut, watched=False)
     await bench.reset()
     fault = regs.IRQ_STATUS_LIDAR_FAULT_MASK
     await bench.write(regs.IRQ_ENABLE_OFFSET, fault)

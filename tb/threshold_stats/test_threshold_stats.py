@@ -162,7 +162,7 @@ async def flat_windows(dut: HierarchyObject, place: str, stall: str) -> None:
     short = 3 if SIDE > 8 else long  # Windows of 128 in both directions make frames that take long to simulate.
     sizes = [(min(w, LIMITS.max_width), min(h, LIMITS.max_height)) for w, h in ((long, short), (short, long))]
     beats: list[Beat] = []
-    for flat_limit in [*FLAT_LIMITS, *rng.sample(FLAT_LIMITS, len(FLAT_LIMITS))]:
+    for flat_limit in rng.sample(FLAT_LIMITS, len(FLAT_LIMITS)):
         size = rng.choice(sizes)
         for keep in (size[0] * size[1], rng.randrange(size[0], size[0] * size[1])):
             beats += frame_beats(patchy_frame(rng, *size, flat_limit, place))[:keep]
