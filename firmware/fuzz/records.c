@@ -60,12 +60,17 @@ static uint16_t within(double value, double most)
     return (uint16_t)fmin(fmax(value, 0.0), most);
 }
 
+static double reach_px(double variance_px2)
+{
+    return BOX_SIGMAS * sqrt(variance_px2) + 1.0;
+}
+
 static void paint(struct landing_record *record, const struct shape *shape)
 {
     struct landing_object *object = append(record);
     const double area = floor(shape->area_px);
-    const double reach_x = BOX_SIGMAS * sqrt(shape->cov_xx) + 1.0;
-    const double reach_y = BOX_SIGMAS * sqrt(shape->cov_yy) + 1.0;
+    const double reach_x = reach_px(shape->cov_xx);
+    const double reach_y = reach_px(shape->cov_yy);
 
     object->area = (uint32_t)area;
     object->box_min_x = within(shape->x_px - reach_x, WIDTH_PX - 1U);
@@ -82,8 +87,8 @@ static void paint(struct landing_record *record, const struct shape *shape)
 // Whether the image of a whole shape ends within the frame.
 static bool is_inside(const struct shape *shape)
 {
-    const double reach_x = BOX_SIGMAS * sqrt(shape->cov_xx) + 1.0;
-    const double reach_y = BOX_SIGMAS * sqrt(shape->cov_yy) + 1.0;
+    const double reach_x = reach_px(shape->cov_xx);
+    const double reach_y = reach_px(shape->cov_yy);
 
     return shape->x_px >= reach_x && shape->x_px <= WIDTH_PX - 1.0 - reach_x && shape->y_px >= reach_y &&
            shape->y_px <= HEIGHT_PX - 1.0 - reach_y;
