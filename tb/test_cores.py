@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the cocotb tests of every core in every config and simulator. The environment variable SEED sets the seed.
 
-The first config runs in both simulators with `make test`, the others with `make test-full`.
+`make test` runs the first config in both simulators and those that `core.toml` names as `quick` besides it in the
+faster one; `make test-full` runs all.
 """
 
 from collections.abc import Iterator
@@ -14,17 +15,21 @@ from scripts.signoff import combine, leave_part
 from tb.common.cores import core_names, load_core
 from tb.common.runner import SIMULATORS, default_seed, run_core
 
+SLOWER = "icarus"
+
 
 def runs() -> Iterator[object]:
     """Yield one pytest parameter a run; a core that cannot be read gives one item, which then fails."""
     for name in core_names():
         try:
-            count = len(load_core(name).configs)
+            core = load_core(name)
+            count, quick = len(core.configs), core.quick
         except UserError:
-            count = 1
+            count, quick = 1, (0,)
         for index in range(count):
-            marks = [pytest.mark.full] if index > 0 else []
             for sim in SIMULATORS:
+                in_test = index == 0 or (index in quick and sim != SLOWER)
+                marks = [] if in_test else [pytest.mark.full]
                 yield pytest.param(name, index, sim, id=f"{name}-{index}-{sim}", marks=marks)
 
 

@@ -8,17 +8,21 @@ from pathlib import Path
 from scripts.errors import UserError
 
 ROOT = Path(__file__).resolve().parents[2]
-KNOWN_KEYS = {"sources", "toplevel", "configs"}
+KNOWN_KEYS = {"sources", "toplevel", "configs", "quick"}
 
 
 @dataclass(frozen=True)
 class Core:
-    """One core: Verilog sources from the project root (top level last), top module, parameter table of each config."""
+    """One core: Verilog sources from the project root (top level last), top module, parameter table of each config.
+
+    `quick` are the configs of `make test`: the first, and with it those in which a test runs that the first skips.
+    """
 
     name: str
     sources: tuple[Path, ...]
     toplevel: str
     configs: tuple[dict[str, int], ...]
+    quick: tuple[int, ...] = (0,)
 
     @property
     def test_module(self) -> str:
@@ -55,7 +59,11 @@ def load_core(name: str) -> Core:
     if not table.get("sources"):
         raise UserError(f"{where} names no sources; list the Verilog files, top level last.")
     sources = tuple(ROOT / source for source in table["sources"])
-    core = Core(name, sources, table.get("toplevel", sources[-1].stem), tuple(table.get("configs", [{}])))
+    configs = tuple(table.get("configs", [{}]))
+    quick = tuple(table.get("quick", [0]))
+    if not {0} <= set(quick) <= set(range(len(configs))):
+        raise UserError(f"{where}: 'quick' must list config 0 and may list others up to {len(configs) - 1}.")
+    core = Core(name, sources, table.get("toplevel", sources[-1].stem), configs, quick)
     for source in sources:
         if not source.is_file():
             raise UserError(f"{where} names {source.relative_to(ROOT)}, which does not exist.")
