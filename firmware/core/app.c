@@ -237,6 +237,7 @@ static struct detect_hint hint_of(const struct app *app, const struct landing_re
     if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
         header->start_time_us - app->last_view_us <= LAST_VIEW_US) {
         hint.last = &app->last_view;
+        hint.last_doubt = app->last_doubt;
     }
     return hint;
 }
@@ -288,6 +289,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     if (track == TRACK_MEASURED) {
         app->has_last_view = true;
         app->last_view = pad.view;
+        app->last_doubt = pad.search_doubt;
         app->last_view_us = record->header.start_time_us;
     }
     if ((app->detect_options & DETECT_FACTORS) != 0U) {

@@ -107,6 +107,7 @@ struct app {
     struct release release;
     struct pad_view last_view; // of the newest pad that was seen
     uint64_t last_view_us;     // start of its frame
+    double last_doubt; // that it left when it was searched for
     bool has_last_view;
     bool camera_lost;
     bool lidar_worked; // since power-up

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "bounds.h"
 #include "doubt.h"
 #include "hypothesis.h"
 #include "pad_geometry.h"
@@ -16,8 +17,6 @@
 
 // A shape smaller than this has edges that are as large as itself.
 #define AREA_MIN_PX 20.0
-#define SOLID_INVARIANT_MIN 10.3
-#define SOLID_INVARIANT_MAX 13.4
 // Among so many objects some lie as a pad's would.
 #define CROWD 150
 
@@ -25,6 +24,8 @@
 #define DOUBT_MAX 2.0
 // With this little no other hypothesis is tried.
 #define DOUBT_NONE 0.6
+// As much as when it was searched for, but for noise.
+#define DOUBT_SAME 1.2
 // A view this bad may be the mirror image of a better one.
 #define MIRROR_MISFIT 1.5
 
@@ -35,27 +36,7 @@
 #define LINE_SIGMA_RING 0.001 // of the ring's diameter
 
 const struct detect_hint detect_no_hint = {
-    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL};
-
-// By rising area (Shell): bounded, in place.
-static void sort_solids(struct detect_scratch *scratch)
-{
-    static const int gaps[] = {57, 23, 10, 4, 1};
-    uint16_t *solids = scratch->solids;
-
-    for (size_t pass = 0; pass < sizeof gaps / sizeof gaps[0]; pass++) {
-        const int gap = gaps[pass];
-        for (int i = gap; i < scratch->solid_count; i++) {
-            const uint16_t moved = solids[i];
-            const double area = scratch->candidates[moved].shape.area_px;
-            int place = i;
-            for (; place >= gap && scratch->candidates[solids[place - gap]].shape.area_px > area; place -= gap) {
-                solids[place] = solids[place - gap];
-            }
-            solids[place] = moved;
-        }
-    }
-}
+    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL, .last_doubt = 0.0};
 
 static void collect(const struct landing_record *record, const struct camera *camera, struct detect_scratch *scratch)
 {
@@ -63,7 +44,6 @@ static void collect(const struct landing_record *record, const struct camera *ca
     const double bottom = camera->height_px - 1.0;
 
     scratch->count = 0;
-    scratch->solid_count = 0;
     for (uint32_t i = 0; i < record->header.object_count; i++) {
         const struct landing_object *object = &record->objects[i];
         struct candidate *candidate = &scratch->candidates[scratch->count];
@@ -72,15 +52,8 @@ static void collect(const struct landing_record *record, const struct camera *ca
         }
         candidate->clipped = object->box_min_x == 0U || object->box_min_y == 0U ||
                              (double)object->box_max_x >= right || (double)object->box_max_y >= bottom;
-        const double invariant = candidate->shape.invariant;
-        // One that touches the border may be whole all the same.
-        if (invariant >= SOLID_INVARIANT_MIN && invariant <= SOLID_INVARIANT_MAX) {
-            scratch->solids[scratch->solid_count] = (uint16_t)scratch->count;
-            scratch->solid_count++;
-        }
         scratch->count++;
     }
-    sort_solids(scratch);
 }
 
 // What was seen of a shape less what the view expects of it, at its centroid.
@@ -263,6 +236,7 @@ static int try_all(const struct detect_context *context, const struct hypotheses
         }
         if (result != 0 || tried.doubt < pad->doubt) {
             *pad = tried;
+            pad->search_doubt = tried.doubt;
             result = 0;
         }
         if (pad->doubt < DOUBT_NONE) {
@@ -272,14 +246,22 @@ static int try_all(const struct detect_context *context, const struct hypotheses
     return result;
 }
 
-// From frame to frame the pad moves less than what the fit bridges; searching costs several times as much.
+// From frame to frame the pad moves less than what the fit bridges; searching costs several times as much, and finds
+// nothing better where it found nothing better before.
 static bool still_there(const struct detect_context *context, struct pad_estimate *pad)
 {
-    if (context->hint->last == NULL) {
+    const struct detect_hint *hint = context->hint;
+
+    if (hint->last == NULL) {
         return false;
     }
-    const struct hypothesis hypothesis = {.view = *context->hint->last, .fused = false, .error = 0.0};
-    return try_view(context, &hypothesis, pad) == 0 && pad->doubt < DOUBT_NONE;
+    const struct hypothesis hypothesis = {.view = *hint->last, .fused = false, .error = 0.0};
+    if (try_view(context, &hypothesis, pad) != 0 ||
+        pad->doubt >= at_least(DOUBT_SAME * hint->last_doubt, DOUBT_NONE)) {
+        return false;
+    }
+    pad->search_doubt = hint->last_doubt;
+    return true;
 }
 
 int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,

@@ -31,8 +31,6 @@ struct candidate {
 struct detect_scratch {
     int count;
     struct candidate candidates[LANDING_RECORD_MAX_OBJECTS];
-    int solid_count;
-    uint16_t solids[LANDING_RECORD_MAX_OBJECTS]; // by rising area
 };
 
 struct pad_estimate {
@@ -48,6 +46,7 @@ struct pad_estimate {
     double doubt;       // misfit, and what is missing or does not belong
     double ring_share;  // of the ring's visible print that was seen
     unsigned kinds;     // PAD_* that were seen
+    double search_doubt; // left by this pad when it was last searched for
 };
 
 // What is known before a record is read.
@@ -55,7 +54,8 @@ struct detect_hint {
     struct tilt_hint tilt; // how the plane is expected to lie
     double height_m;       // of the camera, along its axis, as the LiDAR says; 0 = not known
     bool searching;        // the thresholds have not the usual factor: most of what is seen is clutter
-    const struct pad_view *last; // of the pad a moment ago, or NULL: tried first, and if it leaves no doubt, alone
+    const struct pad_view *last; // of the pad a moment ago, or NULL: tried first, and if it leaves little doubt, alone
+    double last_doubt;           // that it may leave: what it left when nothing better was found
 };
 
 // Level ground, roughly, and no altitude.

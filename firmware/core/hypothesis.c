@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "bounds.h"
+#include "grid.h"
 #include "pad_geometry.h"
 
 #define PI 3.14159265358979323846
@@ -31,6 +32,7 @@ struct range {
 
 // What photographs of the real pad need: blur and the opening of the mask take
 // from thin shapes first, and bloom eats the smallest most.
+static const struct range solid_invariant = {10.3, 13.4};
 static const struct range square_to_rectangle_area = {0.33, 0.72};
 // Standard deviations of the rectangle, along the line, from it to the square: 7.18.
 static const struct range baseline_to_rectangle = {5.6, 9.2};
@@ -169,6 +171,13 @@ static bool affine_of_pair(const struct shape *square, const struct shape *recta
     return affine->det > 0.0;
 }
 
+// How many pixels a mm of the pad is at most, squared.
+static double square_scale(const struct affine *affine)
+{
+    return affine->across.x * affine->across.x + affine->across.y * affine->across.y +
+           affine->down.x * affine->down.x + affine->down.y * affine->down.y;
+}
+
 // What lies around a pair.
 struct surroundings {
     double ring_share; // of the ring's print
@@ -177,22 +186,17 @@ struct surroundings {
 };
 
 // What is whole and looks like a ring counts without `pieces`.
-static struct surroundings surroundings_of(const struct detect_scratch *scratch, const struct affine *affine,
+static struct surroundings surroundings_of(const struct grid *grid, const struct affine *affine,
                                            const struct shape *square_shape, const struct shape *rectangle, bool pieces)
 {
     struct surroundings around = {.ring_share = 0.0};
-    // Whatever has its centroid farther away than this is no piece: most end here.
-    const double reach = piece_radius_mm.greatest * piece_radius_mm.greatest *
-                         (affine->across.x * affine->across.x + affine->across.y * affine->across.y +
-                          affine->down.x * affine->down.x + affine->down.y * affine->down.y);
+    struct grid_near near;
 
-    for (int i = 0; i < scratch->count; i++) {
-        const struct candidate *candidate = &scratch->candidates[i];
-        const double x = candidate->shape.x_px - affine->origin.x;
-        const double y = candidate->shape.y_px - affine->origin.y;
-        if (x * x + y * y > reach) {
-            continue;
-        }
+    // Whatever has its centroid farther away than this is no piece.
+    grid_near(grid, affine->origin.x, affine->origin.y,
+              piece_radius_mm.greatest * piece_radius_mm.greatest * square_scale(affine), &near);
+    for (int i = 0; i < near.count; i++) {
+        const struct candidate *candidate = &grid->scratch->candidates[near.list[i]];
         const double square = square_radius(affine, &candidate->shape);
         const bool whole = !candidate->clipped && in_range(candidate->shape.invariant, ring_invariant);
         if (square >= piece_radius_mm.least * piece_radius_mm.least &&
@@ -208,17 +212,20 @@ static struct surroundings surroundings_of(const struct detect_scratch *scratch,
     return around;
 }
 
-static bool has_small_ring(const struct detect_scratch *scratch, const struct affine *affine,
-                           const struct shape *rectangle)
+static bool has_small_ring(const struct grid *grid, const struct affine *affine, const struct shape *rectangle)
 {
-    for (int i = 0; i < scratch->count; i++) {
-        const struct shape *shape = &scratch->candidates[i].shape;
+    const double miss_mm = SMALL_RING_MISS * BASELINE;
+    struct grid_near near;
+
+    grid_near(grid, affine->origin.x, affine->origin.y, miss_mm * miss_mm * square_scale(affine), &near);
+    for (int i = 0; i < near.count; i++) {
+        const struct shape *shape = &grid->scratch->candidates[near.list[i]].shape;
         if (!in_range(shape->area_px / rectangle->area_px, small_ring_to_rectangle_area) ||
             !in_range(shape->invariant, small_ring_invariant)) {
             continue;
         }
         const struct vector miss = to_pad(affine, shape->x_px, shape->y_px);
-        if (miss.x * miss.x + miss.y * miss.y <= SMALL_RING_MISS * SMALL_RING_MISS * BASELINE * BASELINE) {
+        if (miss.x * miss.x + miss.y * miss.y <= miss_mm * miss_mm) {
             return true;
         }
     }
@@ -243,13 +250,12 @@ static bool is_far(const struct shape *rectangle, double seen_m, double height_m
            seen_m < (1.0 + FAR_HEIGHT_TOLERANCE) * height_m;
 }
 
-static void consider_pair(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
+static void consider_pair(const struct grid *grid, const struct camera *camera, double height_m,
                           uint32_t options, const struct shape *square, const struct shape *rectangle,
                           struct hypotheses *found)
 {
     const struct vector line = shape_offset(rectangle, square);
     const double squared = shape_inner(rectangle, line, line);
-    struct hypothesis hypothesis = {.fused = false};
     struct affine affine;
 
     if (!(squared >= baseline_to_rectangle.least * baseline_to_rectangle.least) ||
@@ -261,13 +267,14 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
         return;
     }
     const struct surroundings around =
-        surroundings_of(scratch, &affine, square, rectangle, (options & DETECT_RING_PIECES) != 0U);
+        surroundings_of(grid, &affine, square, rectangle, (options & DETECT_RING_PIECES) != 0U);
+    struct hypothesis hypothesis = {.fused = false};
     if (!view_of(&affine, camera, &hypothesis.view)) {
         return;
     }
     const double seen_m = height_of(camera, &hypothesis.view);
     if (!(seen_m > 0.0) ||
-        (around.ring_share < RING_SHARE_MIN && !has_small_ring(scratch, &affine, rectangle) &&
+        (around.ring_share < RING_SHARE_MIN && !has_small_ring(grid, &affine, rectangle) &&
          !((options & DETECT_FAR) != 0U && is_far(rectangle, seen_m, height_m)))) {
         return;
     }
@@ -287,31 +294,29 @@ static void consider_pair(const struct detect_scratch *scratch, const struct cam
 void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
                            uint32_t options, struct hypotheses *found)
 {
-    // By rising area, so that the squares of a rectangle are neighbours.
-    int first = 0;
+    struct grid grid;
+    struct grid_near near;
 
-    for (int i = 0; i < scratch->solid_count; i++) {
-        const struct shape *rectangle = &scratch->candidates[scratch->solids[i]].shape;
+    grid_sort(scratch, camera, &grid);
+    for (int i = 0; i < scratch->count; i++) {
+        const struct shape *rectangle = &scratch->candidates[i].shape;
+        // One that touches the border may be whole all the same.
+        if (!in_range(rectangle->invariant, solid_invariant)) {
+            continue;
+        }
         const double least = square_to_rectangle_area.least * rectangle->area_px;
         const double greatest = square_to_rectangle_area.greatest * rectangle->area_px;
-        // No variance exceeds the sum of both: most pairs are far apart and end here.
-        const double reach = baseline_to_rectangle.greatest * baseline_to_rectangle.greatest *
-                             (rectangle->cov_xx + rectangle->cov_yy);
-        // Bounded: `first` never passes i, over all turns of the loop around it.
-        while (first < i && scratch->candidates[scratch->solids[first]].shape.area_px < least) {
-            first++;
-        }
-        for (int j = first; j < i; j++) {
-            const struct shape *square = &scratch->candidates[scratch->solids[j]].shape;
-            if (square->area_px > greatest) {
-                break;
+        // No variance exceeds the sum of both: most pairs are farther apart.
+        grid_near(&grid, rectangle->x_px, rectangle->y_px,
+                  baseline_to_rectangle.greatest * baseline_to_rectangle.greatest *
+                      (rectangle->cov_xx + rectangle->cov_yy),
+                  &near);
+        for (int j = 0; j < near.count; j++) {
+            const struct shape *square = &scratch->candidates[near.list[j]].shape;
+            if (square->area_px >= least && square->area_px <= greatest &&
+                in_range(square->invariant, solid_invariant)) {
+                consider_pair(&grid, camera, height_m, options, square, rectangle, found);
             }
-            const double x = square->x_px - rectangle->x_px;
-            const double y = square->y_px - rectangle->y_px;
-            if (x * x + y * y > reach) {
-                continue;
-            }
-            consider_pair(scratch, camera, height_m, options, square, rectangle, found);
         }
     }
 }

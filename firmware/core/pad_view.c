@@ -12,8 +12,7 @@
 #define GAUSS_2 0.28867513459481287
 #define CELLS_COARSE 2
 #define CELLS_FINE 6
-// Angles on a ring, in tens of degrees.
-#define TENS_COARSE 3
+// Angles on an annulus, in tens of degrees.
 #define TENS_FINE 1
 #define RADII_FINE 2
 
@@ -27,13 +26,14 @@ struct box {
 struct annulus {
     double outer_mm;
     double inner_mm;
+    int tens_coarse; // from point to point; the larger the annulus, the more perspective bends it
 };
 
 static const struct box square = {SQUARE_CENTRE_X_MM, SQUARE_CENTRE_Y_MM, SQUARE_SIDE_MM, SQUARE_SIDE_MM};
 static const struct box rectangle = {RECTANGLE_CENTRE_X_MM, RECTANGLE_CENTRE_Y_MM, RECTANGLE_WIDTH_MM,
                                      RECTANGLE_HEIGHT_MM};
-static const struct annulus small_ring = {SMALL_RING_OUTER_RADIUS_MM, SMALL_RING_INNER_RADIUS_MM};
-static const struct annulus ring = {RING_OUTER_RADIUS_MM, RING_INNER_RADIUS_MM};
+static const struct annulus small_ring = {SMALL_RING_OUTER_RADIUS_MM, SMALL_RING_INNER_RADIUS_MM, 6};
+static const struct annulus ring = {RING_OUTER_RADIUS_MM, RING_INNER_RADIUS_MM, 4};
 
 static double dot(const double a[3], const double b[3])
 {
@@ -77,9 +77,9 @@ double pad_plane_facing(const struct pad_plane *plane)
 
 static void point_of(const struct pad_plane *plane, double x_mm, double y_mm, double point[3])
 {
-    for (int i = 0; i < 3; i++) {
-        point[i] = plane->centre[i] + x_mm * plane->across[i] + y_mm * plane->down[i];
-    }
+    point[0] = plane->centre[0] + x_mm * plane->across[0] + y_mm * plane->down[0];
+    point[1] = plane->centre[1] + x_mm * plane->across[1] + y_mm * plane->down[1];
+    point[2] = plane->centre[2] + x_mm * plane->across[2] + y_mm * plane->down[2];
 }
 
 void pad_plane_project(const struct pad_plane *plane, const struct camera *camera, double x_mm, double y_mm,
@@ -222,7 +222,7 @@ static const double circle[36][2] = {
 
 static void add_annulus(struct sums *sums, const struct annulus *annulus)
 {
-    const int step = sums->clipped ? TENS_FINE : TENS_COARSE;
+    const int step = sums->clipped ? TENS_FINE : annulus->tens_coarse;
     const int radii = sums->clipped ? RADII_FINE : 1;
     const double outer = annulus->outer_mm * annulus->outer_mm;
     const double inner = annulus->inner_mm * annulus->inner_mm;

@@ -97,6 +97,23 @@ static double short_side(const struct shape *shape)
     return short_px;
 }
 
+// What the view expects inside the frame of one shape; returns the share of its print that is there.
+static double expected_of(const struct detect_context *context, const struct pad_plane *plane, unsigned kind,
+                          struct shape *expected)
+{
+    const struct camera *camera = context->camera;
+
+    if (!(pad_plane_moments(plane, camera, kind, false, expected) > 0.0)) {
+        return 0.0;
+    }
+    // Roughly how far it reaches: only near the border is the finer grid worth its time.
+    const double reach = 2.0 * sqrt(expected->cov_xx + expected->cov_yy);
+    const bool inside = expected->x_px >= reach && expected->y_px >= reach &&
+                        expected->x_px <= camera->width_px - 1.0 - reach &&
+                        expected->y_px <= camera->height_px - 1.0 - reach;
+    return inside ? 1.0 : pad_plane_moments(plane, camera, kind, true, expected);
+}
+
 // The object that is nearest to what the view expects of one of the inner shapes.
 static void match(const struct detect_context *context, const struct pad_plane *plane, double edge_px, unsigned kind,
                   struct reading *reading)
@@ -104,19 +121,10 @@ static void match(const struct detect_context *context, const struct pad_plane *
     struct shape expected;
     const struct candidate *nearest = NULL;
     double least = 0.0;
-    double inside = 1.0;
+    const double inside = expected_of(context, plane, kind, &expected);
 
-    if (!(pad_plane_moments(plane, context->camera, kind, false, &expected) > 0.0)) {
+    if (inside < MATCH_INSIDE_MIN) {
         return;
-    }
-    // Roughly how far it reaches: only near the border is the finer grid worth its time.
-    const double reach = 2.0 * sqrt(expected.cov_xx + expected.cov_yy);
-    if (expected.x_px < reach || expected.y_px < reach || expected.x_px > context->camera->width_px - 1.0 - reach ||
-        expected.y_px > context->camera->height_px - 1.0 - reach) {
-        inside = pad_plane_moments(plane, context->camera, kind, true, &expected);
-        if (inside < MATCH_INSIDE_MIN) {
-            return;
-        }
     }
     const bool whole = inside > MATCH_INSIDE_WHOLE;
     if (kind == PAD_SMALL_RING && short_side(&expected) < SMALL_RING_SHORT_MIN_PX) {
@@ -220,13 +228,13 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     struct shape_sum ring = {.area_px = 0.0};
     int pieces = 0;
     bool clipped = false;
-    const double inside = pad_plane_moments(plane, context->camera, PAD_RING, true, &expected);
+    const double inside = expected_of(context, plane, PAD_RING, &expected);
 
     reading->ring_inside = inside;
-    ring.origin = expected;
     if (!(inside > 0.05)) {
         return;
     }
+    ring.origin = expected;
     const double edges_px = pad_edges_px(PAD_RING, &expected, inside);
     const double area_px = at_least(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
     reading->ring_width_px = 2.0 * area_px / edges_px;

@@ -45,30 +45,38 @@ int record_copy_from_ring(struct landing_record *copy, const volatile uint32_t *
     return (int)(sizeof copy->header + copy->header.object_count * sizeof copy->objects[0]);
 }
 
+// What is less than `least` wraps, and is more than any range here: one comparison for both ends.
 static bool within(uint64_t value, uint64_t least, uint64_t greatest)
 {
-    return value >= least && value <= greatest;
+    return value - least <= greatest - least;
+}
+
+// One instruction for two numbers of 32 bits.
+static uint64_t product(uint32_t a, uint32_t b)
+{
+    return (uint64_t)a * b;
 }
 
 static bool object_is_sane(const struct landing_object *object, uint32_t width_px, uint32_t height_px)
 {
-    const uint64_t area = object->area;
-    const uint64_t x_min = object->box_min_x;
-    const uint64_t x_max = object->box_max_x;
-    const uint64_t y_min = object->box_min_y;
-    const uint64_t y_max = object->box_max_y;
+    const uint32_t area = object->area;
+    const uint32_t x_min = object->box_min_x;
+    const uint32_t x_max = object->box_max_x;
+    const uint32_t y_min = object->box_min_y;
+    const uint32_t y_max = object->box_max_y;
 
     if (x_min > x_max || y_min > y_max || x_max >= width_px || y_max >= height_px) {
         return false;
     }
-    if (!within(area, 1U, (x_max - x_min + 1U) * (y_max - y_min + 1U))) {
+    // No product overflows: coordinates have 13 bits, so two of them 26.
+    if (area < 1U || area > (x_max - x_min + 1U) * (y_max - y_min + 1U)) {
         return false;
     }
-    // No product below overflows: coordinates have 13 bits, an area 26.
-    return within(object->sum_x, area * x_min, area * x_max) && within(object->sum_y, area * y_min, area * y_max) &&
-           within(object->sum_xx, area * x_min * x_min, area * x_max * x_max) &&
-           within(object->sum_yy, area * y_min * y_min, area * y_max * y_max) &&
-           within(object->sum_xy, area * x_min * y_min, area * x_max * y_max);
+    return within(object->sum_x, product(area, x_min), product(area, x_max)) &&
+           within(object->sum_y, product(area, y_min), product(area, y_max)) &&
+           within(object->sum_xx, product(area, x_min * x_min), product(area, x_max * x_max)) &&
+           within(object->sum_yy, product(area, y_min * y_min), product(area, y_max * y_max)) &&
+           within(object->sum_xy, product(area, x_min * y_min), product(area, x_max * y_max));
 }
 
 int record_check(const struct landing_record *record, size_t size_bytes)

@@ -27,6 +27,7 @@ void test_factor_search(void);
 void test_flight(void);
 void test_frame_queue(void);
 void test_fusion(void);
+void test_grid(void);
 void test_ground(void);
 void test_hypothesis(void);
 void test_landing(void);

@@ -391,6 +391,23 @@ static void test_last_view(void)
     scene_clear(&record);
     hint.last = &moved;
     CHECK(!find_with(&hint));
+
+    test_case("a pad that left doubt is searched for again when it leaves more than it did");
+    CHECK(find_pad(&now));
+    hint.last = NULL;
+    hint.height_m = 2.0 * now.height_m;
+    CHECK(find_with(&hint));
+    const double doubt = pad.doubt;
+    CHECK(doubt > 1.0);
+    CHECK(pad.search_doubt == doubt);
+    hint.last = &moved;
+    hint.last_doubt = 0.9 * doubt;
+    CHECK(find_with(&hint));
+    CHECK(pad.search_doubt == hint.last_doubt);
+    NEAR(pad.x_px, searched.x_px, 0.05);
+    hint.last_doubt = 0.8 * doubt;
+    CHECK(find_with(&hint));
+    CHECK(pad.search_doubt == pad.doubt);
 }
 
 void test_detect(void)

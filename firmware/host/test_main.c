@@ -52,6 +52,7 @@ int main(void)
     test_flight();
     test_frame_queue();
     test_fusion();
+    test_grid();
     test_ground();
     test_hypothesis();
     test_landing();
