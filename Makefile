@@ -112,6 +112,10 @@ fuzz: setup ## Hostile input for the firmware, under sanitizers: [TARGET=name] [
 flight: setup ## Fly one landing in simulation, print its steps and draw it: [PROFILE=px4] [GUSTS=0.5] [SEED=n]
 	@$(PYTHON) -m sim.flight.run $(if $(PROFILE),--profile "$(PROFILE)") $(if $(GUSTS),--gusts "$(GUSTS)") $(if $(SEED),--seed "$(SEED)")
 
+.PHONY: frame-time
+frame-time: setup ## Instructions of the board for each photograph, searched and tracked, on QEMU: FRAMES=folder [ALTITUDE=m]
+	@$(PYTHON) -m sim.flight.frame_time "$(FRAMES)" $(if $(ALTITUDE),--altitude "$(ALTITUDE)")
+
 .PHONY: ground
 ground: setup ## Show a Touchdown in this terminal, start, hold or abort it: LINK=port|udp:14550 [BAUD=57600] [DO=abort]
 	@$(PYTHON) -m scripts.ground_station --link "$(LINK)" $(if $(BAUD),--baud "$(BAUD)") $(if $(DO),--do "$(DO)")

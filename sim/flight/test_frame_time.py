@@ -2,6 +2,7 @@
 """How many instructions a frame and an interrupt take on the board, at worst, counted on QEMU."""
 
 import random
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -10,10 +11,13 @@ import pytest
 from firmware.library import AUTOPILOT, GROUND
 from golden.ccl import ccl
 from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_MAX_OBJECTS
+from scripts.errors import UserError
 from sim.flight.board import SIZE, ZynqBoard
+from sim.flight.frame_time import main
 from sim.flight.sight import objects_of
 from sim.world.camera import Camera
 from sim.world.pose import Pose
+from sim.world.renderer import render
 
 FRAME_LIMIT = 300_000
 """From the copy of a record to a LANDING_TARGET that waits to be sent, be the pad where it was or anywhere."""
@@ -82,3 +86,23 @@ def test_instructions_of_a_frame_and_an_interrupt(scene: np.ndarray) -> None:
     assert max(frames) <= FRAME_LIMIT
     assert len(interrupts) > 100
     assert max(interrupts) <= INTERRUPT_LIMIT
+
+
+def test_photographs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    image, _ = render(Pose(altitude_m=1.0))
+    cv2.imwrite(str(tmp_path / "pad.png"), image[..., ::-1])
+    assert main([str(tmp_path), "--altitude", "1.0"]) == 0
+    row, searched, tracked = capsys.readouterr().out.splitlines()[1:]
+    counts = [int(word) for word in row.split()[1:]]
+    assert counts[0] >= 4
+    assert FRAME_LIMIT > counts[1] > counts[2] > 30_000
+    assert f"at most {counts[1]} of 1 photographs" in searched
+    assert f"at most {counts[2]} of 1 photographs" in tracked
+
+
+def test_photographs_without_a_pad(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "none.png"), np.full((SIZE[1], SIZE[0], 3), 128, np.uint8))
+    with pytest.raises(UserError, match="no pad is found"):
+        main([str(tmp_path), "--altitude", "1.0"])
+    with pytest.raises(UserError, match="is not a folder"):
+        main([str(tmp_path / "absent")])
