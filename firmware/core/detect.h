@@ -29,6 +29,8 @@ struct candidate {
 };
 
 struct detect_scratch {
+    int skip; // hypotheses that had their turn in the frame before, which had no time for all
+    int slopes_taken; // what the fits of a frame cost: see pad_fit.h
     int count;
     struct candidate candidates[LANDING_RECORD_MAX_OBJECTS];
 };

@@ -5,7 +5,6 @@
 
 #include "bounds.h"
 
-#define STEPS 16
 #define RESIDUALS_A_SIGHTING 6
 #define RESIDUALS (RESIDUALS_A_SIGHTING * PAD_FIT_SIGHTINGS)
 #define CONVERGED_PX 1e-3
@@ -315,16 +314,17 @@ static bool weigh(const struct pad_evidence *evidence, const struct camera *came
 
 // From where it starts to the nearest least cost. False when it leaves what the camera can see.
 static bool descend(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-                    struct guess *best)
+                    struct guess *best, int *slopes_taken)
 {
     struct slopes slopes;
     bool known = false; // the slopes, well enough for the next step
     bool here = false;  // they were taken at this view
     double damping = 1e-4;
 
-    for (int i = 0; i < STEPS; i++) {
+    for (int i = 0; i < PAD_FIT_STEPS; i++) {
         double step[PAD_PARAMETERS];
         struct guess moved;
+        *slopes_taken += known ? 0 : 1;
         if (!known && !slopes_at(evidence, camera, best, &slopes)) {
             return false;
         }
@@ -359,11 +359,11 @@ static bool descend(const struct pad_evidence *evidence, const struct camera *ca
 }
 
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-            struct pad_view *view, double *misfit, double *worst)
+            struct pad_view *view, double *misfit, double *worst, int *slopes_taken)
 {
     struct guess best = {.view = *view};
 
-    if (!weigh(evidence, camera, tilt, &best) || !descend(evidence, camera, tilt, &best)) {
+    if (!weigh(evidence, camera, tilt, &best) || !descend(evidence, camera, tilt, &best, slopes_taken)) {
         return PAD_FIT_E_LOST;
     }
     *view = best.view;

@@ -11,6 +11,7 @@
 enum { PAD_FIT_E_LOST = -1 };
 
 #define PAD_FIT_SIGHTINGS 4
+#define PAD_FIT_STEPS 16
 
 // One object of the record, or several taken as one, and which shapes it is.
 struct sighting {
@@ -34,8 +35,9 @@ struct tilt_hint {
 
 // Improves `view`, which has to be near. `misfit`: mean square of the residuals
 // in standard deviations for each degree of freedom; 1 is what noise alone gives.
-// `worst`: the greatest residual.
+// `worst`: the greatest residual. `slopes_taken` grows with what the fit costs: by one for each time that the residuals'
+// slopes were taken, at most PAD_FIT_STEPS.
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-            struct pad_view *view, double *misfit, double *worst);
+            struct pad_view *view, double *misfit, double *worst, int *slopes_taken);
 
 #endif

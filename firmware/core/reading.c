@@ -30,6 +30,9 @@
 #define FITTED_PIECE_RADIUS_MIN_MM 95.0
 #define FITTED_PIECE_RADIUS_MAX_MM 131.0
 #define MARGIN_MM 145.0
+// A ring of which nothing is missing and to which nothing has grown: its own is 2.76.
+#define CLEAN_RING_INVARIANT_MIN 2.55
+#define CLEAN_RING_INVARIANT_MAX 3.1
 #define RING_REACH 1.7 // of its root mean square radius in the image
 #define THIN_WIDTH_PX 7.0
 #define THIN_PLACES 8
@@ -227,6 +230,7 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     struct shape expected;
     struct shape_sum ring = {.area_px = 0.0};
     int pieces = 0;
+    double invariant = 0.0;
     bool clipped = false;
     const double inside = expected_of(context, plane, PAD_RING, &expected);
 
@@ -262,10 +266,14 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
         }
         shape_sum_add(&ring, shape);
         clipped = clipped || candidate->clipped;
+        invariant = shape->invariant;
         pieces++;
     }
     reading->ring_share = ring.area_px / area_px;
-    if (reading->ring_share < RING_SHARE_WHOLE || reading->ring_share > 1.0 / RING_SHARE_WHOLE ||
+    // One that is whole by its own looks is what it is, though it has too much or too little print for this view.
+    const bool clean = pieces == 1 && invariant >= CLEAN_RING_INVARIANT_MIN && invariant <= CLEAN_RING_INVARIANT_MAX;
+    const bool whole = reading->ring_share >= RING_SHARE_WHOLE && reading->ring_share <= 1.0 / RING_SHARE_WHOLE;
+    if ((!clean && !whole) ||
         ((context->options & DETECT_RING_PIECES) == 0U && (pieces != 1 || clipped))) {
         return;
     }

@@ -41,6 +41,7 @@ void test_rates(void);
 void test_record(void);
 void test_release(void);
 void test_record_torn(void);
+void test_search(void);
 void test_shapes(void);
 void test_steering(void);
 void test_timesync(void);

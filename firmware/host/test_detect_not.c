@@ -268,8 +268,29 @@ static void test_nan_makers(void)
     CHECK(!found());
 }
 
+// A ring that is whole but of another size than the shapes inside it.
+static void test_ring_of_another_size(void)
+{
+    for (int percent = 75; percent <= 135; percent += 5) {
+        const struct scene inner = {.height_m = 2.0, .right_m = 0.3, .heading_deg = 40.0};
+        const double scale = 100.0 / percent;
+        const struct scene ring = {.height_m = scale * inner.height_m, .right_m = scale * inner.right_m};
+        test_case("a ring of %d percent", percent);
+        scene_clear(&record);
+        scene_paint(&record, &inner, scene_rectangle);
+        scene_paint(&record, &inner, scene_square);
+        scene_paint(&record, &ring, scene_ring);
+        if (percent <= 85 || percent >= 115) {
+            CHECK(!found());
+        } else if (percent == 100) {
+            CHECK(found() && has(PAD_RING));
+        }
+    }
+}
+
 void test_detect_not(void)
 {
+    test_ring_of_another_size();
     test_missing_shapes();
     test_decoys();
     test_clutter_within();

@@ -66,6 +66,7 @@ int main(void)
     test_record();
     test_release();
     test_record_torn();
+    test_search();
     test_shapes();
     test_steering();
     test_timesync();

@@ -10,6 +10,8 @@
 
 #define HEIGHT_MM 300.0
 
+static int slopes;
+
 static const struct tilt_hint no_hint = {.x = 0.0, .y = 0.0, .sigma = 100.0};
 
 static struct pad_evidence evidence_of(const struct pad_view *view, const struct camera *camera, bool clipped)
@@ -69,7 +71,9 @@ static void test_recovers(void)
             view.value[PAD_TILT_X] = 0.0;
             view.value[PAD_TILT_Y] = 0.0;
             CHECK(evidence.count == 4);
-            CHECK(pad_fit(&evidence, camera, &no_hint, &view, &misfit, &worst) == 0);
+            slopes = 3;
+            CHECK(pad_fit(&evidence, camera, &no_hint, &view, &misfit, &worst, &slopes) == 0);
+            CHECK(slopes > 3 && slopes <= 3 + PAD_FIT_STEPS);
             check_same(&view, &truth, 1.0);
             NEAR(misfit, 0.0, 0.01);
             NEAR(worst, 0.0, 0.2);
@@ -88,7 +92,7 @@ static void test_cut_by_the_border(void)
 
     test_case("cut by the border");
     CHECK(evidence.count >= 3);
-    CHECK(pad_fit(&evidence, &camera_default, &hint, &view, &misfit, &worst) == 0);
+    CHECK(pad_fit(&evidence, &camera_default, &hint, &view, &misfit, &worst, &slopes) == 0);
     check_same(&view, &truth, 5.0);
 }
 
@@ -137,7 +141,7 @@ static void test_moved_edges(void)
         evidence.sightings[2] = evidence.sightings[3];
         evidence.count = 3;
         scene_count(&plane, &camera_default, grown_ring, 2, false, &evidence.sightings[2].seen);
-        CHECK(pad_fit(&evidence, &camera_default, &level, &view, &misfit, &worst) == 0);
+        CHECK(pad_fit(&evidence, &camera_default, &level, &view, &misfit, &worst, &slopes) == 0);
         NEAR(view.value[PAD_EDGE_PX], edges_px[i], 0.15);
         NEAR(view.value[PAD_X_PX], 640.0, 0.08);
         NEAR(view.value[PAD_Y_PX], 360.0, 0.08);
@@ -156,7 +160,7 @@ static void test_hint_holds(void)
     double worst;
 
     test_case("a sure hint of the tilt is kept, and the misfit tells");
-    CHECK(pad_fit(&evidence, &camera_default, &sure, &view, &misfit, &worst) == 0);
+    CHECK(pad_fit(&evidence, &camera_default, &sure, &view, &misfit, &worst, &slopes) == 0);
     NEAR(view.value[PAD_TILT_X], 0.0, 0.01);
     CHECK(misfit > 0.05);
     test_case("shapes in each other's place do not fit");
@@ -164,7 +168,7 @@ static void test_hint_holds(void)
     evidence.sightings[0].seen = evidence.sightings[1].seen;
     evidence.sightings[1].seen = square;
     view = truth;
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) != 0 || (misfit > 10.0 && worst > 5.0));
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) != 0 || (misfit > 10.0 && worst > 5.0));
 }
 
 static void test_lost(void)
@@ -177,18 +181,18 @@ static void test_lost(void)
     double worst;
 
     test_case("lost");
-    CHECK(pad_fit(&nothing, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
+    CHECK(pad_fit(&nothing, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
     view.value[PAD_X_PX] = 640.0 + 930.0; // where the camera cannot see
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
     view.value[PAD_X_PX] = -400.0; // nothing of it inside the frame
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
     view = truth;
     view.value[PAD_LOG_DISTANCE_MM] = log(1e6); // smaller than a pixel
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
     for (int i = 0; i < PAD_EDGE_PX; i++) {
         view = truth;
         view.value[i] = (double)NAN;
-        CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
+        CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
     }
 }
 

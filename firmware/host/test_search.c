@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// From frame to frame: what is in doubt is searched for again, and a search that has no time left goes on.
+#include <math.h>
+
+#include "detect.h"
+#include "test.h"
+#include "test_scene.h"
+
+#define MOST_A_FRAME 30
+#define TURNS 20 // more than there are hypotheses
+
+static struct landing_record record;
+static struct detect_scratch scratch;
+static struct pad_estimate pad;
+
+static bool find_with(const struct detect_hint *hint)
+{
+    return detect_pad(&record, &camera_default, hint, DETECT_ALL, &scratch, &pad) == 0;
+}
+
+static void paint_without_small_ring(const struct scene *scene)
+{
+    scene_paint(&record, scene, scene_rectangle);
+    scene_paint(&record, scene, scene_square);
+    scene_paint(&record, scene, scene_ring);
+}
+
+static void test_a_better_one_is_found(void)
+{
+    const struct scene poor = {.height_m = 0.65, .right_m = -0.3};
+    const struct scene good = {.height_m = 0.65, .right_m = 0.3};
+    const struct pad_view truth = scene_view(&good);
+    struct detect_hint hint = detect_no_hint;
+    struct pad_view last;
+    int frames = 0;
+
+    test_case("a pad in doubt is followed");
+    scene_clear(&record);
+    paint_without_small_ring(&poor);
+    for (int i = 0; i < 20; i++) {
+        CHECK(find_with(&hint));
+        last = pad.view;
+        hint.last = &last;
+        hint.last_doubt = pad.search_doubt;
+    }
+    CHECK(pad.doubt > 1.0);
+    test_case("until there is a better one");
+    scene_paint_pad(&record, &good);
+    while (frames < 40 && fabs(pad.x_px - truth.value[PAD_X_PX]) > 1.0) {
+        frames++;
+        CHECK(find_with(&hint));
+        last = pad.view;
+        hint.last_doubt = pad.search_doubt;
+    }
+    CHECK(frames > 0 && frames <= 15);
+    CHECK(pad.doubt < 0.6);
+}
+
+// Square and rectangle of a pad, and the ring of one that is seen from elsewhere.
+static void paint_decoy(double right_m, double forward_m, double heading_deg)
+{
+    const struct scene inner = {
+        .height_m = 2.0, .right_m = right_m, .forward_m = forward_m, .heading_deg = heading_deg};
+    const struct scene ring = {
+        .height_m = 1.8, .right_m = 0.9 * right_m + 0.02, .forward_m = 0.9 * forward_m, .heading_deg = 0.0};
+
+    scene_paint(&record, &inner, scene_rectangle);
+    scene_paint(&record, &inner, scene_square);
+    scene_paint(&record, &ring, scene_ring);
+}
+
+static void paint_decoys(void)
+{
+    scene_clear(&record);
+    for (int column = -2; column <= 2; column++) {
+        for (int row = -1; row <= 1; row++) {
+            if (column != 0 || row != 0) {
+                paint_decoy(0.4 * column, 0.4 * row, 40.0 * column + 15.0 * row);
+            }
+        }
+    }
+}
+
+static void test_time_for_a_search(void)
+{
+    const struct scene among = {.height_m = 2.0, .heading_deg = 77.0, .roll_deg = 12.0, .pitch_deg = -9.0};
+    int spent = 0;
+    int ended = 0;
+
+    test_case("a frame full of decoys takes no longer, and the next goes on");
+    paint_decoys();
+    scratch.skip = 0;
+    for (int i = 0; i < TURNS; i++) {
+        const int before = scratch.skip;
+        CHECK(!find_with(&detect_no_hint));
+        CHECK(scratch.slopes_taken > 0 && scratch.slopes_taken <= MOST_A_FRAME);
+        CHECK(scratch.skip == 0 || scratch.skip > before);
+        spent += scratch.skip != 0 ? 1 : 0;
+        ended += scratch.skip == 0 ? 1 : 0;
+    }
+    CHECK(spent > 0 && ended > 0);
+
+    test_case("a pad among them has its turn");
+    scene_paint_pad(&record, &among);
+    int frames = 1;
+    while (frames < TURNS && !find_with(&detect_no_hint)) {
+        frames++;
+    }
+    CHECK(frames < TURNS);
+    CHECK(scratch.skip == 0);
+}
+
+void test_search(void)
+{
+    test_a_better_one_is_found();
+    test_time_for_a_search();
+}
