@@ -15,7 +15,9 @@ from pymavlink.dialects.v20 import common as mavlink
 from firmware.library import BUILD, make
 
 LIMIT_S = 60.0
-_PC, _STATUS = 15, 25
+FREE = 0x01F0_0000
+"""Memory that nothing uses."""
+_PC, STATUS = 15, 25
 _SYSTEM_MODE = 0x5F
 """Of CPSR; fast interrupts are off."""
 _MEMORY = re.compile(rb"\$([0-9a-f]{8})#")
@@ -83,7 +85,7 @@ class Board:
             if code:
                 data = b"".join(word.to_bytes(4, "little") for word in code)
                 self._ask(wire, f"M{address:x},{len(data):x}:{data.hex()}", b"$OK#")
-            values = {**dict(enumerate(registers)), _STATUS: _SYSTEM_MODE, _PC: address}
+            values = {**dict(enumerate(registers)), STATUS: _SYSTEM_MODE, _PC: address}
             for number, value in values.items():
                 self._ask(wire, f"P{number:x}={value.to_bytes(4, 'little').hex()}", b"$OK#")
             self._ask(wire, "D", b"$OK#")
@@ -92,6 +94,13 @@ class Board:
         """What the processor would read there."""
         with self._door() as wire:
             answer = self._ask(wire, f"m{address:x},4", b"#", of_memory=True)
+            self._ask(wire, "D", b"$OK#")
+        return int.from_bytes(bytes.fromhex(answer), "little")
+
+    def register(self, number: int) -> int:
+        """What a register of the processor holds; STATUS is CPSR."""
+        with self._door() as wire:
+            answer = self._ask(wire, f"p{number:x}", b"#", of_memory=True)
             self._ask(wire, "D", b"$OK#")
         return int.from_bytes(bytes.fromhex(answer), "little")
 
@@ -116,6 +125,15 @@ class Board:
         wire.sendall(b"+")
         found = _MEMORY.search(answer)
         return found[1].decode() if of_memory and found else ""
+
+
+def address_of(symbol: str) -> int:
+    """Where the ELF has a symbol."""
+    listing = subprocess.run(
+        ["arm-none-eabi-nm", str(BUILD / "touchdown.elf")], capture_output=True, text=True, check=True
+    ).stdout
+    (found,) = [line.split()[0] for line in listing.splitlines() if line.split()[-1] == symbol]
+    return int(found, 16)
 
 
 @contextmanager

@@ -1,22 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """The watchdog on QEMU's Zynq, which counts and never resets: who feeds it, and what the start after it says."""
 
-import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from firmware.library import BUILD
-from firmware.qemu_board import LIMIT_S, Board, running
+from firmware.qemu_board import FREE, LIMIT_S, Board, address_of, running
 
 LOAD, COUNTER, CONTROL = 0xF8F0_0620, 0xF8F0_0624, 0xF8F0_0628
 LOAD_VALUE = 325_000 * 500
 """Half a second at the board's PERIPHCLK; on QEMU, whose timers run at 100 MHz, 1.6 s."""
 ENABLED = 0b1001
-FREE = 0x01F0_0000
-"""Memory that nothing uses."""
 BRANCH_TO_ITSELF = 0xEAFF_FFFE
 STORE_R3_AT_R2, STORE_R1_AT_R0, GO_TO_R4 = 0xE582_3000, 0xE580_1000, 0xE12F_FF14
 SLCR_UNLOCK, UNLOCK_KEY, REBOOT_STATUS, BITTEN = 0xF800_0008, 0xDF0D, 0xF800_0258, 1 << 17
@@ -28,15 +24,6 @@ def board(tmp_path: Path) -> Iterator[Board]:
     with running(tmp_path) as one:
         one.wait_for("HEARTBEAT", "")
         yield one
-
-
-def address_of(symbol: str) -> int:
-    """Where the ELF has a symbol."""
-    listing = subprocess.run(
-        ["arm-none-eabi-nm", str(BUILD / "touchdown.elf")], capture_output=True, text=True, check=True
-    ).stdout
-    (found,) = [line.split()[0] for line in listing.splitlines() if line.split()[-1] == symbol]
-    return int(found, 16)
 
 
 def test_a_healthy_loop_feeds_it(board: Board) -> None:

@@ -17,7 +17,9 @@ SILENT_S = 3.0
 _HEALTH = ("records", "rejected", "with pad", "malformed", "overflow")
 _BRIDGED = 0x200
 _PHASE_AT = 12
+_DROPPED = slice(7, 9)
 _BOARD = slice(13, 18)
+_RX_LOST = slice(18, 22)
 _LIDAR_AGE_MAX_MS = 9999
 
 
@@ -70,6 +72,7 @@ class View:
             self._pad(),
             self._counts(),
             self._board(),
+            self._wires(),
             "",
             *(f"{at:8.1f}  {text}" for at, text in self.texts),
         ]
@@ -114,6 +117,17 @@ class View:
         return (
             f"board   {lidar}, {clock}, stack {stack_bytes:.0f} bytes, processor {busy_permille / 10:.1f} % busy, "
             f"longest frame {frame_us / 1000:.1f} ms"
+        )
+
+    def _wires(self) -> str:
+        if not self.health:
+            return "wires   not told yet"
+        sent = [f"{value:.0f}" for value in self.health[_DROPPED]]
+        full = [f"{value:.0f}" for value in self.health[_RX_LOST][:2]]
+        overruns = [f"{value:.0f}" for value in self.health[_RX_LOST][2:]]
+        return (
+            f"wires   of autopilot and ground: {' and '.join(sent)} messages not sent, "
+            f"{' and '.join(full)} bytes and {' and '.join(overruns)} overruns lost on arrival"
         )
 
 

@@ -234,14 +234,14 @@ def check_handlers(program: Program, names: list[str]) -> None:
 
 
 def check_vectors(program: Program) -> None:
-    """Each exception that the table of vectors leads to has its stack in `firmware/stack.toml`.
+    """Each exception that a table of vectors leads to has its stack in `firmware/stack.toml`.
 
     Raises:
         UserError: one has not.
     """
     stacks = program.table["stacks"].values()
     listed = {name for stack in stacks for name in (*stack["runs"], *stack.get("interrupted_by", []))}
-    for address in program.named("vectors"):
+    for address in (place for name in program.table["vectors"] for place in program.named(name)):
         for instruction in program.code_at(address)[1]:
             entry = re.search(r"<(.+)>", instruction.operands)
             if entry is not None and entry[1] not in listed:

@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """The ground station against the firmware's core, over UDP."""
 
+import re
 import socket
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
 from firmware.library import GROUND, Firmware, make
-from scripts import ground_station
+from scripts import ground_station, ground_view
 from scripts.errors import UserError
 from scripts.ground_view import View
+
+APP_H = Path(__file__).resolve().parent.parent / "firmware" / "core" / "app.h"
 
 
 def _free_port() -> int:
@@ -102,6 +106,26 @@ def test_what_is_wrong_is_one_sentence(arguments: list[str], message: str) -> No
         ground_station.main(arguments)
 
 
+def test_health_is_the_firmwares() -> None:
+    """Names of the elements that the view picks by number; and the page has a row for each element."""
+    enum = re.search(r"enum app_health_field \{(.*?)\}", APP_H.read_text(), re.DOTALL)
+    assert enum is not None, f"{APP_H} has no enum app_health_field"
+    names = re.findall(r"^\s*APP_HEALTH_(\w+)", enum[1], re.MULTILINE)
+    assert names.pop() == "FIELDS", "the number of fields comes last"
+    assert names[ground_view._PHASE_AT] == "PHASE"
+    assert names[ground_view._DROPPED] == ["DROPPED_AUTOPILOT", "DROPPED_GROUND"]
+    assert names[ground_view._BOARD] == ["LIDAR_AGE_MS", "TIMESYNC_US", "STACK_BYTES", "BUSY_PERMILLE", "FRAME_US"]
+    assert names[ground_view._RX_LOST] == [
+        "RX_FULL_AUTOPILOT",
+        "RX_FULL_GROUND",
+        "RX_OVERRUNS_AUTOPILOT",
+        "RX_OVERRUNS_GROUND",
+    ]
+    page = (APP_H.parents[2] / "docs" / "firmware.md").read_text()
+    rows = re.findall(r"^\|[^|]*\|[^|]*\| \| ([\d, ]+) \|[^|]*\|$", page, re.MULTILINE)
+    assert [int(number) for row in rows for number in row.split(",")] == list(range(len(names)))
+
+
 def test_view_of_a_pad() -> None:
     view = View()
     packer = mavlink.MAVLink(None, srcSystem=1, srcComponent=191)
@@ -123,10 +147,14 @@ def test_view_of_a_pad() -> None:
     take(mavlink.MAVLink_debug_float_array_message(0, b"PAD", 1, [0.0, *pad[1:]]))
     assert "not seen" in view.lines(1.0)[2]
     assert view.lines(1.0)[4] == "board   not told yet"
-    health = [0.0] * 13 + [12.0, 2300.0, 5120.0, 345.0, 6789.0] + [0.0] * 40
+    assert view.lines(1.0)[5] == "wires   not told yet"
+    health = [0.0] * 7 + [1.0, 2.0] + [0.0] * 4 + [12.0, 2300.0, 5120.0, 345.0, 6789.0, 3.0, 4.0, 5.0, 6.0] + [0.0] * 36
     take(mavlink.MAVLink_debug_float_array_message(0, b"HEALTH", 2, health))
     assert view.lines(1.0)[4] == (
         "board   LiDAR 12 ms old, TIMESYNC in 2.3 ms, stack 5120 bytes, processor 34.5 % busy, longest frame 6.8 ms"
+    )
+    assert view.lines(1.0)[5] == (
+        "wires   of autopilot and ground: 1 and 2 messages not sent, 3 and 4 bytes and 5 and 6 overruns lost on arrival"
     )
     take(mavlink.MAVLink_debug_float_array_message(0, b"HEALTH", 2, health[:13] + [9999.0] + [0.0] * 44))
     assert "no LiDAR reading, autopilot's clock not known, stack 0" in view.lines(1.0)[4]

@@ -18,6 +18,7 @@ HEAP = re.compile(r"malloc|calloc|realloc|^_*free(_r)?$|sbrk")
 
 TABLE = {
     "margin_percent": 25,
+    "vectors": ["vectors"],
     "stacks": {
         "system": {"bottom": "low", "top": "high", "runs": ["start"], "interrupted_by": ["interrupt"]},
     },

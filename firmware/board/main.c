@@ -115,18 +115,29 @@ static void take_frame(uint64_t now_us)
     }
 }
 
+static void tell_vitals(uint64_t now_us)
+{
+    struct app_vitals own = {
+        .stack_used_bytes = stack_used_bytes(),
+        .busy_permille = vitals_busy_permille(&vitals, now_us),
+        .frame_worst_us = vitals.frame_worst_us,
+    };
+
+    for (int i = 0; i < APP_LINKS; i++) {
+        const struct uart_losses losses = uart_lost(uart_of((enum app_link)i));
+        own.rx_full_bytes[i] = losses.full_bytes;
+        own.rx_overruns[i] = losses.overruns;
+    }
+    app_on_vitals(&app, &own);
+}
+
 static void tick(uint64_t now_us)
 {
     static uint64_t next_complaints_us;
     static uint64_t next_vitals_us;
 
     if (now_us >= next_vitals_us) {
-        const struct app_vitals own = {
-            .stack_used_bytes = stack_used_bytes(),
-            .busy_permille = vitals_busy_permille(&vitals, now_us),
-            .frame_worst_us = vitals.frame_worst_us,
-        };
-        app_on_vitals(&app, &own);
+        tell_vitals(now_us);
         next_vitals_us = now_us + VITALS_PERIOD_US;
     }
     if (!has_hardware) {

@@ -11,6 +11,9 @@
 
     .equ PAINT, 0x5AFE57AC                  // of the stack, as in stack.c
 
+    .equ DFSR_STATUS, 0x40F
+    .equ DFSR_ASYNCHRONOUS_EXTERNAL, 0x406
+
     .equ SCTLR_MMU, 1 << 0
     .equ SCTLR_DCACHE, 1 << 2
     .equ SCTLR_BRANCH_PREDICTION, 1 << 11
@@ -24,6 +27,18 @@ vectors:
     b   supervisor_call_entry
     b   prefetch_abort_entry
     b   data_abort_entry
+    nop
+    b   interrupt_entry
+    b   fast_interrupt_entry
+
+// The same, for the one moment in which an abort is not ours.
+    .balign 32
+loader_vectors:
+    b   start
+    b   undefined_entry
+    b   supervisor_call_entry
+    b   prefetch_abort_entry
+    b   loader_abort_entry
     nop
     b   interrupt_entry
     b   fast_interrupt_entry
@@ -92,10 +107,28 @@ park:
     strlo   r2, [r0], #4
     blo     4b
 
+    // From here on an access that a bus answers with an error is a fault, also one that is answered late. One that
+    // the boot loader left pending is taken at once, and is not: nothing is known of it, and it is over.
+    ldr     r0, =loader_vectors
+    ldr     r1, =vectors
+    mcr     p15, 0, r0, c12, c0, 0          // VBAR
+    isb
+    dsb
+    cpsie   a
+    isb
+    mcr     p15, 0, r1, c12, c0, 0
+    isb
+
     bl      mmu_enable
     bl      main
 5:  wfi
     b       5b
+
+// Goes on where it was.
+loader_abort_entry:
+    sub     lr, lr, #8
+    srsdb   sp!, #MODE_ABORT
+    rfeia   sp!
 
 // Return state and the registers that C may change go on the system-mode stack.
 interrupt_entry:
@@ -119,12 +152,15 @@ interrupt_entry:
 interrupt_return:                           // where the co-simulation stops counting
     rfeia   sp!
 
-// fault_report(kind, address of the instruction) does not return.
+// fault_report(kind, address of the instruction) does not return. A late answer to an access of before must not
+// take the place of what it has to say; aborts and fast interrupts mask those themselves.
 undefined_entry:
+    cpsid   a
     sub     r1, lr, #4
     mov     r0, #0
     b       fault_report
 supervisor_call_entry:
+    cpsid   a
     ldr     sp, =undefined_stack_top
     sub     r1, lr, #4
     mov     r0, #1
@@ -135,7 +171,13 @@ prefetch_abort_entry:
     b       fault_report
 data_abort_entry:
     sub     r1, lr, #8
-    mov     r0, #3
+    mrc     p15, 0, r2, c5, c0, 0           // DFSR
+    movw    r3, #DFSR_STATUS
+    and     r2, r2, r3
+    movw    r3, #DFSR_ASYNCHRONOUS_EXTERNAL
+    cmp     r2, r3
+    movne   r0, #3
+    moveq   r0, #5                          // the address is where the answer found us, not who asked
     b       fault_report
 fast_interrupt_entry:
     ldr     sp, =undefined_stack_top

@@ -53,6 +53,9 @@ struct uart {
     struct byte_ring rx;
     struct byte_ring tx;
     uint32_t tx_limit; // bytes that may wait in the ring
+    // Each read and written whole; only the interrupt writes them.
+    volatile uint32_t rx_full_bytes;
+    volatile uint32_t rx_overruns;
     uint8_t rx_storage[RX_BYTES];
     uint8_t tx_storage[TX_BYTES];
 };
@@ -78,11 +81,16 @@ static void handle(struct uart *uart)
     const uint32_t status = register_read(uart->base + INTERRUPT_STATUS);
 
     register_write(uart->base + INTERRUPT_STATUS, status);
+    if ((status & INTERRUPT_RX_OVERRUN) != 0U) {
+        uart->rx_overruns++;
+    }
     // A UART that never runs empty is left to its next interrupt.
     for (uint32_t i = 0; i < RX_BYTES && (register_read(uart->base + STATUS) & STATUS_RX_EMPTY) == 0U; i++) {
         const uint8_t byte = (uint8_t)register_read(uart->base + FIFO);
-        // A full ring loses the byte; the checksum of the message tells.
-        (void)byte_ring_put(&uart->rx, &byte, 1U);
+        // The checksum of the message tells that a byte is missing.
+        if (!byte_ring_put(&uart->rx, &byte, 1U)) {
+            uart->rx_full_bytes++;
+        }
     }
     pump(uart);
 }
@@ -104,6 +112,8 @@ void uart_init(enum uart_id id, uint32_t baud)
 
     byte_ring_init(&uart->rx, uart->rx_storage, RX_BYTES);
     byte_ring_init(&uart->tx, uart->tx_storage, TX_BYTES);
+    uart->rx_full_bytes = 0U;
+    uart->rx_overruns = 0U;
     uart->tx_limit = baud / BITS_A_BYTE * WAIT_MS / 1000U - FIFO_DEPTH;
     register_write(uart->base + INTERRUPT_DISABLE, INTERRUPT_ALL);
     register_write(uart->base + CONTROL, 0U);
@@ -144,6 +154,13 @@ size_t uart_read(enum uart_id id, uint8_t *bytes, size_t limit)
 bool uart_has_input(enum uart_id id)
 {
     return !byte_ring_is_empty(&uarts[id].rx);
+}
+
+struct uart_losses uart_lost(enum uart_id id)
+{
+    const struct uart_losses losses = {.full_bytes = uarts[id].rx_full_bytes, .overruns = uarts[id].rx_overruns};
+
+    return losses;
 }
 
 uint32_t uart_sent(enum uart_id id)

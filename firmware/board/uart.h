@@ -19,6 +19,14 @@ bool uart_write(enum uart_id id, const uint8_t *bytes, size_t size);
 size_t uart_read(enum uart_id id, uint8_t *bytes, size_t limit);
 bool uart_has_input(enum uart_id id);
 
+// What arrived and was lost since uart_init(), so that a command that never came can be told from one never sent.
+struct uart_losses {
+    uint32_t full_bytes; // that the ring had no room for: the main loop was too slow
+    uint32_t overruns;   // times that the FIFO was found to have lost bytes: interrupts were off too long
+};
+
+struct uart_losses uart_lost(enum uart_id id);
+
 // How many bytes have left for the FIFO so far, and whether more wait.
 uint32_t uart_sent(enum uart_id id);
 bool uart_is_sending(enum uart_id id);

@@ -79,6 +79,10 @@ void app_on_vitals(struct app *app, const struct app_vitals *vitals)
     app->health[APP_HEALTH_STACK_BYTES] = vitals->stack_used_bytes;
     app->health[APP_HEALTH_BUSY_PERMILLE] = vitals->busy_permille;
     app->health[APP_HEALTH_FRAME_US] = vitals->frame_worst_us;
+    app->health[APP_HEALTH_RX_FULL_AUTOPILOT] = vitals->rx_full_bytes[APP_LINK_AUTOPILOT];
+    app->health[APP_HEALTH_RX_FULL_GROUND] = vitals->rx_full_bytes[APP_LINK_GROUND];
+    app->health[APP_HEALTH_RX_OVERRUNS_AUTOPILOT] = vitals->rx_overruns[APP_LINK_AUTOPILOT];
+    app->health[APP_HEALTH_RX_OVERRUNS_GROUND] = vitals->rx_overruns[APP_LINK_GROUND];
 }
 
 static void send_landing_target(struct app *app, const struct landing_record *record, const struct pad_estimate *pad,

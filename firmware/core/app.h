@@ -68,6 +68,10 @@ enum app_health_field {
     APP_HEALTH_STACK_BYTES,      // the most that was in use
     APP_HEALTH_BUSY_PERMILLE,    // of the processor, in the last second
     APP_HEALTH_FRAME_US,         // the longest that a frame took the processor
+    APP_HEALTH_RX_FULL_AUTOPILOT, // bytes that arrived and found no room in memory
+    APP_HEALTH_RX_FULL_GROUND,
+    APP_HEALTH_RX_OVERRUNS_AUTOPILOT, // times that the UART itself had lost bytes
+    APP_HEALTH_RX_OVERRUNS_GROUND,
     APP_HEALTH_FIELDS
 };
 
@@ -78,6 +82,8 @@ struct app_vitals {
     uint32_t stack_used_bytes;
     uint32_t busy_permille;
     uint32_t frame_worst_us;
+    uint32_t rx_full_bytes[APP_LINKS]; // as APP_HEALTH_RX_*
+    uint32_t rx_overruns[APP_LINKS];
 };
 
 // What the hardware complains of, since the last look.

@@ -4,7 +4,7 @@
 #define MAGIC 0x48535243U // "CRSH"
 
 static const char *const kinds[CRASH_KINDS] = {"undefined instruction", "supervisor call", "prefetch abort",
-                                               "data abort", "fast interrupt"};
+                                               "data abort", "fast interrupt", "asynchronous abort"};
 
 static uint32_t check_of(uint32_t kind, uint32_t address)
 {

@@ -9,13 +9,14 @@
 
 #include "text.h"
 
-// In the order of the exception entries of board/start.S.
+// The numbers that board/start.S gives.
 enum crash_kind {
     CRASH_UNDEFINED,
     CRASH_SUPERVISOR_CALL,
     CRASH_PREFETCH,
     CRASH_DATA,
     CRASH_FAST_INTERRUPT,
+    CRASH_ASYNCHRONOUS, // a bus refused an access, usually a write, some instructions before the address
     CRASH_KINDS
 };
 

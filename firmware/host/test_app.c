@@ -256,7 +256,8 @@ static void test_restart(void)
 
 static void test_health_of_the_board(void)
 {
-    const struct app_vitals vitals = {.stack_used_bytes = 9000U, .busy_permille = 321U, .frame_worst_us = 4567U};
+    const struct app_vitals vitals = {.stack_used_bytes = 9000U, .busy_permille = 321U, .frame_worst_us = 4567U,
+                                      .rx_full_bytes = {11U, 12U}, .rx_overruns = {13U, 14U}};
     struct lidar_reading lidar = {.valid = true, .distance_mm = 1000U, .age_us = 12345U};
 
     test_case("what the board knows of itself, and how old the LiDAR's reading is");
@@ -264,6 +265,8 @@ static void test_health_of_the_board(void)
     app_on_vitals(&app, &vitals);
     app_tick(&app, 0, &lidar);
     CHECK(app.health[APP_HEALTH_STACK_BYTES] == 9000U && app.health[APP_HEALTH_BUSY_PERMILLE] == 321U);
+    CHECK(app.health[APP_HEALTH_RX_FULL_AUTOPILOT] == 11U && app.health[APP_HEALTH_RX_FULL_GROUND] == 12U);
+    CHECK(app.health[APP_HEALTH_RX_OVERRUNS_AUTOPILOT] == 13U && app.health[APP_HEALTH_RX_OVERRUNS_GROUND] == 14U);
     CHECK(app.health[APP_HEALTH_FRAME_US] == 4567U && app.health[APP_HEALTH_LIDAR_AGE_MS] == 12U);
     lidar = (struct lidar_reading){.valid = false, .age_us = UINT32_MAX};
     app_tick(&app, 1000000U, &lidar);

@@ -35,6 +35,9 @@ void test_crash(void)
     crash_append(&text, CRASH_FAST_INTERRUPT, 0xdeadbeefU);
     CHECK(strcmp(text.chars, "fast interrupt at deadbeef") == 0);
     text.length = 0U;
+    crash_append(&text, CRASH_ASYNCHRONOUS, 0x43c00000U);
+    CHECK(strcmp(text.chars, "asynchronous abort at 43c00000") == 0);
+    text.length = 0U;
     crash_append(&text, CRASH_KINDS, 1U);
     CHECK(strcmp(text.chars, "unknown fault at 00000001") == 0);
     test_case("numbers, and what does not fit");

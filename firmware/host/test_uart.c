@@ -41,12 +41,23 @@ static int room;
 static bool stuck;
 static bool babbling;
 static uint32_t reads;
+static uint32_t arriving; // bytes that wait in the receive FIFO
+static uint32_t interrupts; // INTERRUPT_STATUS
 
 // A full FIFO sends one byte between two looks at it, unless it is stuck.
 static uint32_t register_read(uintptr_t address)
 {
     reads++;
+    if (address % 0x1000U == INTERRUPT_STATUS) {
+        return interrupts;
+    }
+    if (address % 0x1000U == FIFO && arriving > 0U) {
+        arriving--;
+    }
     if (address % 0x1000U != STATUS) {
+        return 0U;
+    }
+    if (arriving > 0U) {
         return 0U;
     }
     if (babbling) {
@@ -59,8 +70,12 @@ static uint32_t register_read(uintptr_t address)
     return STATUS_RX_EMPTY;
 }
 
+// Writing ones clears them.
 static void register_write(uintptr_t address, uint32_t value)
 {
+    if (address % 0x1000U == INTERRUPT_STATUS) {
+        interrupts &= ~value;
+    }
     if (address == ZYNQ_UART1_BASE + FIFO) {
         CHECK(room > 0 && sent < sizeof wire);
         wire[sent++] = (uint8_t)value;
@@ -74,7 +89,41 @@ static void start(void)
     room = FIFO_BYTES;
     stuck = false;
     reads = 0;
+    arriving = 0;
+    interrupts = 0;
     uart_init(UART_1, 57600U);
+}
+
+static void arrive(uint32_t bytes, uint32_t status)
+{
+    arriving = bytes;
+    interrupts = status;
+    interrupt_of[1]();
+    CHECK(arriving == 0U && interrupts == 0U);
+}
+
+static void test_losses(void)
+{
+    uint8_t bytes[16];
+
+    test_case("what finds no room in the ring is counted, byte by byte");
+    start();
+    arrive(RX_BYTES, INTERRUPT_RX_WATERMARK);
+    CHECK(uart_lost(UART_1).full_bytes == 0U && uart_lost(UART_1).overruns == 0U);
+    arrive(5U, INTERRUPT_RX_TIMEOUT);
+    CHECK(uart_lost(UART_1).full_bytes == 5U);
+    CHECK(uart_read(UART_1, bytes, sizeof bytes) == sizeof bytes);
+    arrive(17U, INTERRUPT_RX_WATERMARK);
+    CHECK(uart_lost(UART_1).full_bytes == 6U && uart_lost(UART_1).overruns == 0U);
+    test_case("each overrun of the FIFO is counted once, though nothing may be left to read");
+    arrive(0U, INTERRUPT_RX_OVERRUN);
+    arrive(0U, INTERRUPT_RX_OVERRUN | INTERRUPT_RX_TIMEOUT);
+    arrive(0U, INTERRUPT_RX_TIMEOUT | INTERRUPT_TX_EMPTY);
+    CHECK(uart_lost(UART_1).full_bytes == 6U && uart_lost(UART_1).overruns == 2U);
+    test_case("of each UART its own");
+    CHECK(uart_lost(UART_0).full_bytes == 0U && uart_lost(UART_0).overruns == 0U);
+    start();
+    CHECK(uart_lost(UART_1).full_bytes == 0U && uart_lost(UART_1).overruns == 0U);
 }
 
 void test_uart(void)
@@ -135,4 +184,5 @@ void test_uart(void)
     babbling = false;
     CHECK(reads <= 2U * RX_BYTES + 4U);
     CHECK(uart_has_input(UART_1));
+    test_losses();
 }
