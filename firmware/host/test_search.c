@@ -69,21 +69,20 @@ static void paint_decoy(double right_m, double forward_m, double heading_deg)
     scene_paint(&record, &ring, scene_ring);
 }
 
+// Fewer than there are hypotheses in a frame.
 static void paint_decoys(void)
 {
+    static const double places_m[][2] = {{-0.8, 0.0}, {-0.4, -0.4}, {0.4, -0.4}, {0.8, 0.0}, {0.4, 0.4}};
+
     scene_clear(&record);
-    for (int column = -2; column <= 2; column++) {
-        for (int row = -1; row <= 1; row++) {
-            if (column != 0 || row != 0) {
-                paint_decoy(0.4 * column, 0.4 * row, 40.0 * column + 15.0 * row);
-            }
-        }
+    for (unsigned i = 0; i < sizeof places_m / sizeof places_m[0]; i++) {
+        paint_decoy(places_m[i][0], places_m[i][1], 40.0 * i);
     }
 }
 
 static void test_time_for_a_search(void)
 {
-    const struct scene among = {.height_m = 2.0, .heading_deg = 77.0, .roll_deg = 12.0, .pitch_deg = -9.0};
+    const struct scene among = {.height_m = 2.0, .heading_deg = 77.0, .roll_deg = 9.0};
     int spent = 0;
     int ended = 0;
 
@@ -106,7 +105,7 @@ static void test_time_for_a_search(void)
     while (frames < TURNS && !find_with(&detect_no_hint)) {
         frames++;
     }
-    CHECK(frames < TURNS);
+    CHECK(frames > 1 && frames <= 4);
     CHECK(scratch.skip == 0);
 }
 
