@@ -70,6 +70,9 @@ def test_every_phase_that_commands_has_a_limit_and_an_end(landing: Landing) -> N
     [
         ('to = "ENGAGE"', 'to = "ENGAGED"', "which is not defined"),
         ('mode = "hold"', 'mode = "sleep"', "there is not"),
+        ('mode = "hold", steer = "stop"', 'mode = "hold", steer = "climb"', "does not take"),
+        ('mode = "none", steer = "none"', 'mode = "none", steer = "stop"', "does not take"),
+        ('mode = "steer", steer = "stop"', 'mode = "steer", steer = "none"', "does not take"),
         ('reason = "start"', 'reason = "a reason that is too long to be read on the ground"', "longer than"),
         ("phases = [", "phases = [[", "is no TOML"),
         ("says =", "tells =", "lacks or misspells"),

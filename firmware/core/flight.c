@@ -126,12 +126,21 @@ static void send_command(struct links *links, const struct autopilot_command *co
                mavlink_out_command(&links->out[APP_LINK_AUTOPILOT], &out, bytes));
 }
 
+// A phase that wants another mode stops the vehicle until the autopilot leaves the one in which it obeys velocities.
+static bool takes_velocity(const struct flight *flight)
+{
+    const struct landing_phase_row *phase = &landing_phase_table[flight->landing.phase];
+
+    return phase->steer != LANDING_STEER_NONE &&
+           (phase->mode == LANDING_MODE_STEER || autopilot_is_in(&flight->autopilot, LANDING_MODE_STEER));
+}
+
 static void send_velocity(struct flight *flight, struct links *links, uint64_t now_us)
 {
     const enum landing_steer steer = landing_phase_table[flight->landing.phase].steer;
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
 
-    if (steer == LANDING_STEER_NONE || now_us < flight->next_velocity_us) {
+    if (!takes_velocity(flight) || now_us < flight->next_velocity_us) {
         return;
     }
     struct steering_view view = {

@@ -12,7 +12,9 @@
 #define TICK_US 10000U
 #define SWITCH 7 // the channel of TD_RC_CHAN, from 0
 #define GUIDED 4U
+#define LOITER 5U
 #define LAND 9U
+#define BRAKE 17U
 
 static struct flight flight;
 static struct links links;
@@ -198,6 +200,14 @@ static int velocities(void)
     return wire_count(APP_LINK_AUTOPILOT, MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED);
 }
 
+static bool stands(const mavlink_message_t *velocity)
+{
+    return mavlink_msg_set_position_target_local_ned_get_vx(velocity) == 0.0F &&
+           mavlink_msg_set_position_target_local_ned_get_vy(velocity) == 0.0F &&
+           mavlink_msg_set_position_target_local_ned_get_vz(velocity) == 0.0F &&
+           mavlink_msg_set_position_target_local_ned_get_yaw_rate(velocity) == 0.0F;
+}
+
 // Commands of a kind to the autopilot; the first parameter but one is that of the newest.
 static int commands(uint16_t number, float *second)
 {
@@ -215,7 +225,7 @@ static void test_streams(void)
 
     test_case("before a landing telemetry is asked for, and nothing else");
     start();
-    fly(5000U, 5U, 0.0, 1.5);
+    fly(5000U, LOITER, 0.0, 1.5);
     CHECK(commands((uint16_t)MAV_CMD_SET_MESSAGE_INTERVAL, &interval_us) == 1 && interval_us == 20000.0F);
     CHECK(velocities() == 0);
     test_case("with no attitude none is known, with no LiDAR no height");
@@ -239,7 +249,7 @@ static void engage(void)
     for (size_t i = 0; i < AUTOPILOT_STREAMS; i++) {
         flight.autopilot.next_stream_us[i] = UINT64_MAX;
     }
-    fly(SECOND, 5U, 0.3, 1.8);
+    fly(SECOND, LOITER, 0.3, 1.8);
     CHECK(velocities() == 0 && flight.logged == 0U);
     ask((uint16_t)MAV_CMD_NAV_LAND);
     wire_clear();
@@ -251,15 +261,15 @@ static void test_engage(void)
 
     test_case("a start: it stands still and asks for the mode, after setpoints that PX4 wants to see first");
     engage();
-    fly(290000U, 5U, 0.3, 1.8);
+    fly(290000U, LOITER, 0.3, 1.8);
     CHECK(flight.landing.phase == LANDING_PHASE_ENGAGE && flight.logged == 1U);
     CHECK(strcmp(wire_text(), "Touchdown: start") == 0);
     CHECK(velocities() >= 7 && velocities() <= 9); // 30 Hz
     CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) == 0.0F);
     CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 0);
-    fly(30000U, 5U, 0.3, 1.8);
+    fly(30000U, LOITER, 0.3, 1.8);
     CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 1 && mode == (float)GUIDED);
-    fly(500000U, 5U, 0.3, 1.8);
+    fly(500000U, LOITER, 0.3, 1.8);
     CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 2);
     CHECK(mavlink_msg_command_long_get_confirmation(wire_last(APP_LINK_AUTOPILOT, MAVLINK_MSG_ID_COMMAND_LONG)) == 1U);
     test_case("in the mode it flies towards the pad, by the gain and no faster than allowed");
@@ -278,17 +288,30 @@ static void test_abort(void)
 {
     float mode;
 
-    test_case("an abort ends the velocities at once and hands the vehicle back");
+    test_case("an abort stops it at once and for as long as the autopilot stays in the steering mode");
     engage();
     fly(500000U, GUIDED, 0.3, 1.8);
-    CHECK(velocities() > 10);
+    CHECK(velocities() > 10 && !stands(newest_velocity()));
     ask((uint16_t)MAV_CMD_DO_GO_AROUND);
     wire_clear();
+    fly(TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(velocities() == 1 && stands(newest_velocity()) && flight.landing.phase == LANDING_PHASE_GIVE_UP);
     fly(600000U, GUIDED, 0.3, 1.8);
-    CHECK(velocities() == 0 && flight.landing.phase == LANDING_PHASE_GIVE_UP);
-    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 2 && mode == 17.0F);
-    fly(TICK_US, 17U, 0.3, 1.8);
+    CHECK(velocities() >= 15 && stands(newest_velocity()));
+    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 2 && mode == (float)BRAKE);
+    test_case("handed back, it commands nothing any more");
+    wire_clear();
+    fly(TICK_US, BRAKE, 0.3, 1.8);
     CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
+    fly(SECOND, GUIDED, 0.3, 1.8);
+    CHECK(velocities() == 0);
+    test_case("an abort before the autopilot can be steered sends no velocity");
+    engage();
+    fly(100000U, LOITER, 0.3, 1.8);
+    ask((uint16_t)MAV_CMD_DO_GO_AROUND);
+    wire_clear();
+    fly(600000U, LOITER, 0.3, 1.8);
+    CHECK(velocities() == 0 && flight.landing.phase == LANDING_PHASE_GIVE_UP);
 }
 
 static void test_down(void)
@@ -296,16 +319,22 @@ static void test_down(void)
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
     float force;
 
-    test_case("centred it goes down, aligned it lands, on the ground it asks for the motors off without force");
+    test_case("centred it goes down, aligned it lands");
     engage();
     fly(2U * SECOND, GUIDED, 0.0, 1.8);
     CHECK(flight.landing.phase == LANDING_PHASE_DESCEND);
     NEAR((double)mavlink_msg_set_position_target_local_ned_get_vz(newest_velocity()), 0.25, 1e-6);
     fly(3U * SECOND, GUIDED, 0.0, 0.9);
     CHECK(flight.landing.phase == LANDING_PHASE_LAND);
+    test_case("it stands still until the autopilot lands");
+    CHECK(stands(newest_velocity()));
+    wire_clear();
+    fly(100000U, GUIDED, 0.1, 0.9);
+    CHECK(velocities() >= 2 && stands(newest_velocity()));
     wire_clear();
     fly(SECOND, LAND, 0.0, 0.3);
     CHECK(velocities() == 0 && flight.landing.committed);
+    test_case("on the ground it asks for the motors off, without force");
     landed.as.landed_state = (uint8_t)MAV_LANDED_STATE_ON_GROUND;
     of_autopilot(landed);
     wire_clear();
