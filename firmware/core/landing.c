@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "bounds.h"
+
 #define US_PER_S 1000000U
 #define CAMERA_LOST_US 300000U
 #define LIDAR_STALE_US 300000U
@@ -17,6 +19,9 @@
 #define SETTLED_US 1000000U
 #define ALIGNED_RAD 0.07
 #define HIGH_TOLERANCE_M 0.1
+// Longer than one reading of the LiDAR counts: 60 ms in the hardware, then until it is stale.
+#define COMMIT_AFTER_US 400000U
+#define COMMIT_BELOW_ALIGN_M 0.1 // from the height for aligning LAND can always turn back
 
 void landing_init(struct landing *landing, uint64_t now_us)
 {
@@ -82,6 +87,18 @@ static uint32_t sensor_facts(const struct landing_known *known, uint64_t now_us)
            when(contradicts, LANDING_FACT_LIDAR_CONTRADICTS) | when(ground_lost, LANDING_FACT_GROUND_LOST);
 }
 
+static bool is_low_to_commit(const struct landing_known *known, uint64_t now_us)
+{
+    const struct parameters *parameters = known->parameters;
+    const double below_m = at_most((double)parameters->commit_height_m,
+                                   (double)parameters->align_height_m - COMMIT_BELOW_ALIGN_M);
+    // Of two heights that contradict each other one is wrong.
+    const bool contradicted = is_fresh(known->pad_us, now_us, PAD_FRESH_US) && known->agreed_us != known->pad_us;
+    double height_m;
+
+    return !contradicted && landing_height_m(known, now_us, &height_m) && height_m < below_m;
+}
+
 static uint32_t pad_facts(struct landing *landing, const struct landing_known *known, uint64_t now_us)
 {
     const struct parameters *parameters = known->parameters;
@@ -96,9 +113,11 @@ static uint32_t pad_facts(struct landing *landing, const struct landing_known *k
     if (!seen || fabs(known->pad.angle_rad) > ALIGNED_RAD) {
         landing->off_angle_us = now_us;
     }
-    if (landing->phase == LANDING_PHASE_LAND && high_known && height_m < (double)parameters->commit_height_m) {
-        landing->committed = true;
+    if (!is_low_to_commit(known, now_us)) {
+        landing->not_low_us = now_us;
     }
+    landing->committed = landing->committed || (landing->phase == LANDING_PHASE_LAND &&
+                                                now_us >= landing->not_low_us + COMMIT_AFTER_US);
     const bool centred = now_us >= landing->off_centre_us + SETTLED_US;
     const bool aligned = centred && now_us >= landing->off_angle_us + SETTLED_US;
     const bool high = high_known && height_m >= (double)parameters->search_height_m - HIGH_TOLERANCE_M;
@@ -140,6 +159,7 @@ static void enter(struct landing *landing, enum landing_phase phase, uint64_t no
     landing->committed = landing->committed && phase == LANDING_PHASE_TOUCHDOWN;
     landing->off_centre_us = now_us;
     landing->off_angle_us = now_us;
+    landing->not_low_us = now_us;
     landing->phase = phase;
     landing->entered_us = now_us;
 }

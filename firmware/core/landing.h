@@ -37,6 +37,7 @@ struct landing {
     uint64_t entered_us;
     uint64_t off_centre_us; // when the pad was last not centred
     uint64_t off_angle_us;  // when it was last not aligned
+    uint64_t not_low_us;    // when it was last not low enough to commit
     bool committed;
     uint32_t times_lost;
 };

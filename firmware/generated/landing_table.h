@@ -66,7 +66,7 @@ enum landing_steer {
 #define LANDING_FACT_CENTRED 0x00200000u // for 1 s the pad was within 8 cm + 5 % of the height of the point below the camera
 #define LANDING_FACT_LOW 0x00400000u // at the height for aligning, or below
 #define LANDING_FACT_ALIGNED 0x00800000u // centred, and for 1 s within 4 degrees of the pad's orientation
-#define LANDING_FACT_COMMITTED 0x01000000u // lower than TD_COMMIT_M: landing is safer than turning back
+#define LANDING_FACT_COMMITTED 0x01000000u // for 0.4 s without a break lower than TD_COMMIT_M, and than TD_ALIGN_M less 0.1 m, uncontradicted: landing is safer than turning back
 
 struct landing_phase_row {
     const char *name;
