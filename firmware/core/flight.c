@@ -91,6 +91,11 @@ void flight_on_message(struct flight *flight, struct links *links, enum app_link
     }
 }
 
+void flight_on_new_track(struct flight *flight)
+{
+    flight->known.pad_row = 0U;
+}
+
 void flight_on_frame(struct flight *flight, const struct attitude *attitude, const struct pad_estimate *pad,
                      const struct altitude *altitude, uint64_t exposed_us, uint64_t now_us)
 {
@@ -105,6 +110,9 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
     }
     const double scale = altitude->pad_scale;
 
+    if (now_us > known->pad_us + LANDING_PAD_FRESH_US) {
+        known->pad_row = 0U;
+    }
     known->pad_us = now_us;
     known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;
     // Without a fresh attitude no one steers by it.
@@ -144,7 +152,7 @@ static void send_velocity(struct flight *flight, struct links *links, uint64_t n
         return;
     }
     struct steering_view view = {
-        .pad_known = landing_pad_is_fresh(&flight->known, now_us),
+        .pad_known = landing_sees_pad(&flight->known, now_us),
         .pad = flight->known.pad,
         .phase_us = now_us - flight->landing.entered_us,
     };

@@ -12,7 +12,6 @@
 #define LIDAR_STALE_US 300000U
 #define ATTITUDE_STALE_US 250000U
 #define CONTRADICTS_US 500000U
-#define PAD_FRESH_US 100000U
 #define PAD_LOST_US 500000U
 #define PAD_ROW_MIN 5U
 #define GROUND_LOST_US 5000000U
@@ -36,14 +35,15 @@ static bool is_fresh(uint64_t arrived_us, uint64_t now_us, uint64_t most_us)
     return arrived_us != 0U && now_us <= arrived_us + most_us;
 }
 
-bool landing_pad_is_fresh(const struct landing_known *known, uint64_t now_us)
+bool landing_sees_pad(const struct landing_known *known, uint64_t now_us)
 {
-    return is_fresh(known->pad_us, now_us, PAD_FRESH_US) && is_fresh(known->attitude_us, now_us, ATTITUDE_STALE_US);
+    return known->pad_row >= PAD_ROW_MIN && is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) &&
+           is_fresh(known->attitude_us, now_us, ATTITUDE_STALE_US);
 }
 
 bool landing_height_m(const struct landing_known *known, uint64_t now_us, double *height_m)
 {
-    if (landing_pad_is_fresh(known, now_us)) {
+    if (landing_sees_pad(known, now_us)) {
         *height_m = known->pad.down_m;
         return true;
     }
@@ -76,7 +76,7 @@ static uint32_t autopilot_facts(const struct landing *landing, const struct land
 static uint32_t sensor_facts(const struct landing_known *known, uint64_t now_us)
 {
     // Only while the pad is seen is there a size to contradict.
-    const bool contradicts = is_fresh(known->pad_us, now_us, PAD_FRESH_US) &&
+    const bool contradicts = is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) &&
                              !is_fresh(known->agreed_us, now_us, CONTRADICTS_US);
     const bool ground_lost = known->parameters->ground_needed >= 0.5F &&
                              !is_fresh(known->ground_us, now_us, GROUND_LOST_US);
@@ -93,7 +93,7 @@ static bool is_low_to_commit(const struct landing_known *known, uint64_t now_us)
     const double below_m = at_most((double)parameters->commit_height_m,
                                    (double)parameters->align_height_m - COMMIT_BELOW_ALIGN_M);
     // Of two heights that contradict each other one is wrong.
-    const bool contradicted = is_fresh(known->pad_us, now_us, PAD_FRESH_US) && known->agreed_us != known->pad_us;
+    const bool contradicted = is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) && known->agreed_us != known->pad_us;
     double height_m;
 
     return !contradicted && landing_height_m(known, now_us, &height_m) && height_m < below_m;
@@ -102,7 +102,7 @@ static bool is_low_to_commit(const struct landing_known *known, uint64_t now_us)
 static uint32_t pad_facts(struct landing *landing, const struct landing_known *known, uint64_t now_us)
 {
     const struct parameters *parameters = known->parameters;
-    const bool seen = landing_pad_is_fresh(known, now_us) && known->pad_row >= PAD_ROW_MIN;
+    const bool seen = landing_sees_pad(known, now_us);
     const double off_m = hypot(known->pad.forward_m, known->pad.right_m);
     double height_m = 0.0;
     const bool high_known = landing_height_m(known, now_us, &height_m);

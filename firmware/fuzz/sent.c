@@ -107,7 +107,7 @@ static void check_velocity(const struct sent *sent, const struct frame *frame)
     DEMAND(steer != LANDING_STEER_STOP || (forward == 0.0F && right == 0.0F && down == 0.0F));
     DEMAND(steer != LANDING_STEER_CLIMB || (forward == 0.0F && right == 0.0F));
     DEMAND(steer == LANDING_STEER_SEARCH || (forward == 0.0F && right == 0.0F && yaw == 0.0F) ||
-           landing_pad_is_fresh(&flight->known, sent->now_us));
+           landing_sees_pad(&flight->known, sent->now_us));
 }
 
 static void check_mode(const struct flight *flight, const struct frame *frame)

@@ -161,6 +161,17 @@ static void test_frames(void)
     flight.known.pad_row = UINT32_MAX;
     frame(0.4, 2.0, 90.0, true);
     CHECK(flight.known.pad_row == UINT32_MAX);
+    test_case("a tenth of a second without frames begins the count anew, as does a pad that need not be the same");
+    flight.known.pad_row = 4U;
+    now_us += 100000U;
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_row == 5U);
+    now_us += 100001U;
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_row == 1U);
+    flight_on_new_track(&flight);
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_row == 1U);
     test_case("a frame without the pad begins the count anew");
     now_us += TICK_US;
     flight_on_frame(&flight, &attitude, NULL, &(struct altitude){.height_m = 2.0}, now_us, now_us);
@@ -314,6 +325,33 @@ static void test_abort(void)
     CHECK(velocities() == 0 && flight.landing.phase == LANDING_PHASE_GIVE_UP);
 }
 
+static void test_gap(void)
+{
+    test_case("after a while without frames the pad is not steered by before it was seen in five");
+    engage();
+    fly(500000U, GUIDED, 0.3, 1.8);
+    const uint64_t until_us = now_us + 2U * SECOND;
+    while (now_us < until_us) {
+        now_us += TICK_US;
+        heartbeat(GUIDED, true);
+        attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    }
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT);
+    fly(4U * TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT);
+    fly(TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_CENTRE);
+    test_case("nor is another one");
+    fly(100000U, GUIDED, 0.3, 1.8);
+    CHECK(!stands(newest_velocity()));
+    flight_on_new_track(&flight);
+    fly(4U * TICK_US, GUIDED, -0.5, 1.8);
+    CHECK(stands(newest_velocity()) && flight.landing.phase == LANDING_PHASE_CENTRE);
+    fly(100000U, GUIDED, -0.5, 1.8);
+    CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) < 0.0F);
+}
+
 static void test_down(void)
 {
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
@@ -359,5 +397,6 @@ void test_flight(void)
     test_streams();
     test_engage();
     test_abort();
+    test_gap();
     test_down();
 }
