@@ -100,8 +100,8 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
                      const struct altitude *altitude, uint64_t exposed_us, uint64_t now_us)
 {
     struct landing_known *known = &flight->known;
-    double roll_rad = attitude->roll_rad;
-    double pitch_rad = attitude->pitch_rad;
+    double roll_rad = 0.0;
+    double pitch_rad = 0.0;
 
     known->record_us = now_us;
     if (pad == NULL) {
@@ -110,18 +110,22 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
     }
     const double scale = altitude->pad_scale;
 
-    if (now_us > known->pad_us + LANDING_PAD_FRESH_US) {
-        known->pad_row = 0U;
-    }
     known->pad_us = now_us;
-    known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;
-    // Without a fresh attitude no one steers by it.
-    (void)attitude_at(attitude, exposed_us, now_us, &roll_rad, &pitch_rad);
-    known->pad = steering_level(roll_rad, pitch_rad, pad->right_m * scale, pad->forward_m * scale,
-                                pad->depth_m * scale, RAD_PER_DEG * pad->angle_deg);
     if (!altitude->lidar_implausible) {
         known->agreed_us = now_us;
     }
+    // Seen it is; but turned level by an old attitude it would be steered by as soon as ATTITUDE is back.
+    if (!attitude_at(attitude, exposed_us, now_us, &roll_rad, &pitch_rad)) {
+        known->pad_row = 0U;
+        return;
+    }
+    if (now_us > known->level_us + LANDING_PAD_FRESH_US) {
+        known->pad_row = 0U;
+    }
+    known->level_us = now_us;
+    known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;
+    known->pad = steering_level(roll_rad, pitch_rad, pad->right_m * scale, pad->forward_m * scale,
+                                pad->depth_m * scale, RAD_PER_DEG * pad->angle_deg);
 }
 
 static void send_command(struct links *links, const struct autopilot_command *command, uint8_t confirmation)

@@ -37,7 +37,7 @@ static bool is_fresh(uint64_t arrived_us, uint64_t now_us, uint64_t most_us)
 
 bool landing_sees_pad(const struct landing_known *known, uint64_t now_us)
 {
-    return known->pad_row >= PAD_ROW_MIN && is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) &&
+    return known->pad_row >= PAD_ROW_MIN && is_fresh(known->level_us, now_us, LANDING_PAD_FRESH_US) &&
            is_fresh(known->attitude_us, now_us, ATTITUDE_STALE_US);
 }
 

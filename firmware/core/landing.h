@@ -29,8 +29,9 @@ struct landing_known {
     double lidar_m;       // its height along the plumb line
     uint64_t attitude_us; // newest ATTITUDE that is one
     uint64_t pad_us;      // newest frame with the pad
-    uint32_t pad_row;     // frames with it in a row, of one track
+    uint64_t level_us;    // newest frame whose pad could be turned level
     struct level_pad pad; // in that frame
+    uint32_t pad_row;     // such frames in a row, of one track
     uint64_t agreed_us;   // newest frame in which the LiDAR did not contradict the pad's size
     uint64_t ground_us;   // newest HEARTBEAT of a ground station
 };

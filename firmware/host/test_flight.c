@@ -149,6 +149,7 @@ static void test_frames(void)
 {
     test_case("a frame with the pad: as large as the altitude says, counted, and whether the LiDAR agrees");
     start();
+    attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
     frame(0.4, 2.0, 90.0, true);
     NEAR(flight.known.pad.forward_m, 0.4, 1e-9);
     NEAR(flight.known.pad.down_m, 2.0, 1e-9);
@@ -352,6 +353,43 @@ static void test_gap(void)
     CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) < 0.0F);
 }
 
+static void test_no_attitude(void)
+{
+    test_case("a pad of a frame without an attitude is seen, and not steered by, before or after ATTITUDE is back");
+    engage();
+    fly(500000U, GUIDED, 0.3, 1.8);
+    const uint64_t until_us = now_us + SECOND;
+    while (now_us < until_us) {
+        now_us += TICK_US;
+        heartbeat(GUIDED, true);
+        frame(-0.9, 1.8, 0.0, true);
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    }
+    const uint32_t facts = landing_facts(&flight.landing, &flight.known, now_us);
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT && flight.known.pad_row == 0U);
+    CHECK((facts & LANDING_FACT_ATTITUDE_STALE) != 0U && (facts & LANDING_FACT_PAD) == 0U);
+    CHECK((facts & (LANDING_FACT_PAD_LOST | LANDING_FACT_CAMERA_LOST | LANDING_FACT_LIDAR_CONTRADICTS)) == 0U);
+    // The frame before was turned level without it.
+    attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
+    flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    CHECK(!landing_sees_pad(&flight.known, now_us));
+    fly(4U * TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT && stands(newest_velocity()));
+    fly(TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_CENTRE);
+    test_case("while the autopilot lands by itself the pad is not lost for want of an attitude");
+    fly(2U * SECOND, GUIDED, 0.0, 1.8);
+    fly(3U * SECOND, GUIDED, 0.0, 0.9);
+    CHECK(flight.landing.phase == LANDING_PHASE_LAND);
+    for (int i = 0; i < 100; i++) {
+        now_us += TICK_US;
+        heartbeat(LAND, true);
+        frame(0.0, 0.8, 0.0, true);
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    }
+    CHECK(flight.landing.phase == LANDING_PHASE_LAND);
+}
+
 static void test_down(void)
 {
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
@@ -398,5 +436,6 @@ void test_flight(void)
     test_engage();
     test_abort();
     test_gap();
+    test_no_attitude();
     test_down();
 }

@@ -26,7 +26,8 @@ static void all_well(uint64_t now_us)
     parameters_init(&parameters);
     known.autopilot = &autopilot;
     known.parameters = &parameters;
-    known.record_us = known.lidar_us = known.attitude_us = known.pad_us = known.agreed_us = known.ground_us = now_us;
+    known.record_us = known.lidar_us = known.attitude_us = known.agreed_us = known.ground_us = now_us;
+    known.pad_us = known.level_us = now_us;
     known.lidar_m = 1.5;
     known.pad_row = 5U;
     known.pad.down_m = 1.5;
@@ -72,7 +73,7 @@ static void test_each_fact(void)
     CHECK((facts_at(t) & LANDING_FACT_PAD) == 0U);
     test_case("never heard of is old");
     known.record_us = 0U;
-    known.lidar_us = known.attitude_us = known.pad_us = 0U;
+    known.lidar_us = known.attitude_us = known.pad_us = known.level_us = 0U;
     CHECK((facts_at(1U) & (LANDING_FACT_CAMERA_LOST | LANDING_FACT_LIDAR_STALE | LANDING_FACT_ATTITUDE_STALE |
                            LANDING_FACT_PAD_LOST)) ==
           (LANDING_FACT_CAMERA_LOST | LANDING_FACT_LIDAR_STALE | LANDING_FACT_ATTITUDE_STALE | LANDING_FACT_PAD_LOST));
@@ -171,7 +172,7 @@ static void test_settling(void)
     test_case("heights: of the pad while it is seen, else of the LiDAR, else none");
     known.pad.down_m = 0.9;
     CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == LANDING_FACT_LOW);
-    known.pad_us = 0U;
+    known.pad_us = known.level_us = 0U;
     known.lidar_m = 1.75;
     CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == LANDING_FACT_HIGH);
     known.lidar_us = 0U;
@@ -188,7 +189,8 @@ static bool commits(uint64_t from_us, double height_m, uint64_t for_us)
     (void)facts_at(from_us);
     known.lidar_m = known.pad.down_m = height_m;
     for (uint64_t us = 0U; us <= for_us; us += 10000U) {
-        known.pad_us = known.agreed_us = known.lidar_us = known.attitude_us = from_us + us;
+        known.pad_us = known.level_us = known.agreed_us = from_us + us;
+        known.lidar_us = known.attitude_us = from_us + us;
         committed = (facts_at(from_us + us) & LANDING_FACT_COMMITTED) != 0U;
     }
     return committed;
@@ -210,7 +212,7 @@ static void test_not_committed(void)
     test_case("one reading of the LiDAR, for as long as it counts, is not enough");
     all_well(t);
     landing.committed = false;
-    known.pad_us = 0U;
+    known.pad_us = known.level_us = 0U;
     (void)facts_at(t);
     known.lidar_m = 0.3;
     for (uint64_t us = 0U; us <= SECOND; us += 5000U) {
@@ -221,7 +223,7 @@ static void test_not_committed(void)
     all_well(t);
     known.pad.down_m = 0.3;
     for (uint64_t us = 10000U; us <= SECOND; us += 10000U) {
-        known.pad_us = known.lidar_us = known.attitude_us = t + us;
+        known.pad_us = known.level_us = known.lidar_us = known.attitude_us = t + us;
         CHECK((facts_at(t + us) & LANDING_FACT_COMMITTED) == 0U);
     }
     test_case("at the height for aligning it can turn back, whatever TD_COMMIT_M says");
@@ -243,7 +245,7 @@ static void test_committed(void)
     landing.phase = LANDING_PHASE_LAND;
     CHECK(!commits(t, 0.5, COMMIT_AFTER_US));
     CHECK(commits(t, 0.3, COMMIT_AFTER_US));
-    known.pad_us = known.lidar_us = 0U;
+    known.pad_us = known.level_us = known.lidar_us = 0U;
     CHECK((facts_at(t) & LANDING_FACT_COMMITTED) != 0U);
     CHECK(landing_step(&landing, LANDING_FACT_ARMED | LANDING_FACT_ON_GROUND, t) != NULL);
     CHECK(landing.phase == LANDING_PHASE_TOUCHDOWN && (facts_at(t) & LANDING_FACT_COMMITTED) != 0U);
