@@ -4,7 +4,7 @@
 
 const struct landing_phase_row landing_phase_table[LANDING_PHASES] = {
     {"STANDBY", LANDING_MODE_NONE, LANDING_STEER_NONE, 0u},
-    {"ENGAGE", LANDING_MODE_STEER, LANDING_STEER_STOP, 6u},
+    {"ENGAGE", LANDING_MODE_STEER, LANDING_STEER_STOP, 0u},
     {"SEARCH", LANDING_MODE_STEER, LANDING_STEER_SEARCH, 40u},
     {"CENTRE", LANDING_MODE_STEER, LANDING_STEER_CENTRE, 20u},
     {"DESCEND", LANDING_MODE_STEER, LANDING_STEER_DESCEND, 25u},
@@ -15,14 +15,14 @@ const struct landing_phase_row landing_phase_table[LANDING_PHASES] = {
     {"HOLD", LANDING_MODE_STEER, LANDING_STEER_STOP, 60u},
     {"WAIT", LANDING_MODE_STEER, LANDING_STEER_STOP, 4u},
     {"CLIMB", LANDING_MODE_STEER, LANDING_STEER_CLIMB, 12u},
-    {"GIVE_UP", LANDING_MODE_HOLD, LANDING_STEER_STOP, 6u},
+    {"GIVE_UP", LANDING_MODE_HOLD, LANDING_STEER_STOP, 0u},
 };
 
 const struct landing_rule landing_rules[LANDING_RULES] = {
-    {0x00001efeu, 0x00000100u, 0x00000000u, LANDING_PHASE_STANDBY, 4u, "mode taken by pilot or failsafe"},
-    {0x00001efeu, 0x00000020u, 0x00000000u, LANDING_PHASE_STANDBY, 2u, "autopilot is silent"},
     {0x000000c0u, 0x00000400u, 0x00000040u, LANDING_PHASE_LANDED, 6u, "down, motors off"},
     {0x000000c0u, 0x01000000u, 0x00000040u, LANDING_PHASE_LANDED, 6u, "down, motors off"},
+    {0x00001efeu, 0x00000100u, 0x00000000u, LANDING_PHASE_STANDBY, 4u, "mode taken by pilot or failsafe"},
+    {0x00001efeu, 0x00000020u, 0x00000000u, LANDING_PHASE_STANDBY, 2u, "autopilot is silent"},
     {0x00001efeu, 0x00000000u, 0x00000040u, LANDING_PHASE_STANDBY, 2u, "motors off in the air"},
     {0x00000080u, 0x00000004u, 0x00000000u, LANDING_PHASE_STANDBY, 4u, "aborted on the ground"},
     {0x00000e7eu, 0x00000004u, 0x00000000u, LANDING_PHASE_GIVE_UP, 4u, "aborted"},
@@ -38,10 +38,8 @@ const struct landing_rule landing_rules[LANDING_RULES] = {
     {0x00000100u, 0x00000002u, 0x00000000u, LANDING_PHASE_LANDED, 4u, "no start: motors are off"},
     {0x00000100u, 0x00000040u, 0x00000000u, LANDING_PHASE_STANDBY, 6u, "armed again"},
     {0x00000002u, 0x00000200u, 0x00000000u, LANDING_PHASE_STANDBY, 4u, "autopilot refuses to be steered"},
-    {0x00000002u, 0x00000001u, 0x00000000u, LANDING_PHASE_STANDBY, 4u, "autopilot did not take the mode in time"},
     {0x00001000u, 0x00000080u, 0x00000000u, LANDING_PHASE_STANDBY, 4u, "handed back to the autopilot"},
     {0x00001000u, 0x00000200u, 0x00000000u, LANDING_PHASE_STANDBY, 2u, "autopilot refuses to hold: take over"},
-    {0x00001000u, 0x00000001u, 0x00000000u, LANDING_PHASE_STANDBY, 2u, "autopilot does not hold: take over"},
     {0x00000e7cu, 0x00000200u, 0x00000000u, LANDING_PHASE_GIVE_UP, 4u, "autopilot refuses a mode"},
     {0x00000038u, 0x00020800u, 0x0000c000u, LANDING_PHASE_LAND, 4u, "battery low: lands at once"},
     {0x00000e06u, 0x00000800u, 0x00000000u, LANDING_PHASE_GIVE_UP, 4u, "battery low and no pad in sight"},

@@ -84,7 +84,7 @@ struct landing_rule {
     const char *reason;
 };
 
-#define LANDING_RULES 61u
+#define LANDING_RULES 59u
 
 extern const struct landing_phase_row landing_phase_table[LANDING_PHASES];
 extern const struct landing_rule landing_rules[LANDING_RULES];

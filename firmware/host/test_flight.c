@@ -326,6 +326,50 @@ static void test_abort(void)
     CHECK(velocities() == 0 && flight.landing.phase == LANDING_PHASE_GIVE_UP);
 }
 
+static void answer_mode_requests(uint8_t result)
+{
+    struct mavlink_in_message message = {.kind = MAVLINK_IN_ACK};
+
+    message.as.ack = (struct mavlink_in_ack){.command = (uint16_t)MAV_CMD_DO_SET_MODE, .result = result};
+    of_autopilot(message);
+}
+
+// How long it waits for a mode that does not come, in a phase that has no limit.
+static uint64_t wait_us(enum landing_phase phase, uint32_t mode, int result)
+{
+    const uint64_t since_us = now_us;
+
+    while (flight.landing.phase == phase && now_us < since_us + 60U * (uint64_t)SECOND) {
+        fly(TICK_US, mode, 0.3, 1.8);
+        if (result >= 0) {
+            answer_mode_requests((uint8_t)result);
+        }
+    }
+    return now_us - since_us;
+}
+
+static void test_waits_for_a_mode(void)
+{
+    static const int results[] = {-1, MAV_RESULT_ACCEPTED, MAV_RESULT_TEMPORARILY_REJECTED, MAV_RESULT_FAILED,
+                                  MAV_RESULT_IN_PROGRESS};
+
+    for (size_t i = 0; i < sizeof results / sizeof results[0]; i++) {
+        test_case("a mode that does not come is refused within 3 s, answer %d", results[i]);
+        engage();
+        fly(TICK_US, LOITER, 0.3, 1.8);
+        CHECK(flight.landing.phase == LANDING_PHASE_ENGAGE);
+        CHECK(wait_us(LANDING_PHASE_ENGAGE, LOITER, results[i]) <= 3U * SECOND);
+        CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
+        engage();
+        fly(500000U, GUIDED, 0.3, 1.8);
+        ask((uint16_t)MAV_CMD_DO_GO_AROUND);
+        fly(TICK_US, GUIDED, 0.3, 1.8);
+        CHECK(flight.landing.phase == LANDING_PHASE_GIVE_UP);
+        CHECK(wait_us(LANDING_PHASE_GIVE_UP, GUIDED, results[i]) <= 3U * SECOND);
+        CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
+    }
+}
+
 static void test_gap(void)
 {
     test_case("after a while without frames the pad is not steered by before it was seen in five");
@@ -390,6 +434,24 @@ static void test_no_attitude(void)
     CHECK(flight.landing.phase == LANDING_PHASE_LAND);
 }
 
+static void test_down_and_another_mode(void)
+{
+    struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
+
+    test_case("down with motors off is landed, also where the mode changes with it");
+    engage();
+    fly(2U * SECOND, GUIDED, 0.0, 1.8);
+    fly(3U * SECOND, GUIDED, 0.0, 0.9);
+    fly(SECOND, LAND, 0.0, 0.3);
+    landed.as.landed_state = (uint8_t)MAV_LANDED_STATE_ON_GROUND;
+    of_autopilot(landed);
+    fly(SECOND, LAND, 0.0, 0.1);
+    CHECK(flight.landing.phase == LANDING_PHASE_TOUCHDOWN);
+    heartbeat(LOITER, false);
+    flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    CHECK(flight.landing.phase == LANDING_PHASE_LANDED);
+}
+
 static void test_down(void)
 {
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
@@ -435,7 +497,9 @@ void test_flight(void)
     test_streams();
     test_engage();
     test_abort();
+    test_waits_for_a_mode();
     test_gap();
     test_no_attitude();
+    test_down_and_another_mode();
     test_down();
 }
