@@ -18,6 +18,7 @@
 #define SETTLED_US 1000000U
 #define ALIGNED_RAD 0.07
 #define HIGH_TOLERANCE_M 0.1
+#define AT_SEARCH_TOLERANCE_M 0.2
 // Longer than one reading of the LiDAR counts: 60 ms in the hardware, then until it is stale.
 #define COMMIT_AFTER_US 400000U
 #define COMMIT_BELOW_ALIGN_M 0.1 // from the height for aligning LAND can always turn back
@@ -120,11 +121,12 @@ static uint32_t pad_facts(struct landing *landing, const struct landing_known *k
                                                 now_us >= landing->not_low_us + COMMIT_AFTER_US);
     const bool centred = now_us >= landing->off_centre_us + SETTLED_US;
     const bool aligned = centred && now_us >= landing->off_angle_us + SETTLED_US;
-    const bool high = high_known && height_m >= (double)parameters->search_height_m - HIGH_TOLERANCE_M;
+    const double above_search_m = height_m - (double)parameters->search_height_m;
 
     return when(seen, LANDING_FACT_PAD) | when(!is_fresh(known->pad_us, now_us, PAD_LOST_US), LANDING_FACT_PAD_LOST) |
            when(centred, LANDING_FACT_CENTRED) | when(aligned, LANDING_FACT_ALIGNED) |
-           when(high, LANDING_FACT_HIGH) |
+           when(high_known && above_search_m >= -HIGH_TOLERANCE_M, LANDING_FACT_HIGH) |
+           when(high_known && fabs(above_search_m) <= AT_SEARCH_TOLERANCE_M, LANDING_FACT_AT_SEARCH) |
            when(high_known && height_m <= (double)parameters->align_height_m, LANDING_FACT_LOW) |
            when(landing->committed, LANDING_FACT_COMMITTED) |
            when((float)landing->times_lost > parameters->tries, LANDING_FACT_TRIES_USED);

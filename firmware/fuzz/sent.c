@@ -103,7 +103,7 @@ static void check_velocity(const struct sent *sent, const struct frame *frame)
     DEMAND(down >= -CLIMB_M_S - ROUNDING && down <= parameters->descent_m_s + ROUNDING);
     DEMAND(fabsf(yaw) <= RAD_PER_DEG * parameters->yaw_rate_deg_s + ROUNDING);
     DEMAND(yaw == 0.0F || steer == LANDING_STEER_ALIGN);
-    DEMAND(down <= 0.0F || steer == LANDING_STEER_DESCEND);
+    DEMAND(down <= 0.0F || steer == LANDING_STEER_DESCEND || steer == LANDING_STEER_CENTRE);
     DEMAND(steer != LANDING_STEER_STOP || (forward == 0.0F && right == 0.0F && down == 0.0F));
     DEMAND(steer != LANDING_STEER_CLIMB || (forward == 0.0F && right == 0.0F));
     DEMAND(steer == LANDING_STEER_SEARCH || (forward == 0.0F && right == 0.0F && yaw == 0.0F) ||

@@ -63,10 +63,11 @@ enum landing_steer {
 #define LANDING_FACT_PAD_LOST 0x00040000u // no frame with the pad for 0.5 s
 #define LANDING_FACT_TRIES_USED 0x00080000u // it had to WAIT more than TD_TRIES times since the start
 #define LANDING_FACT_HIGH 0x00100000u // within 0.1 m of the search height, or above
-#define LANDING_FACT_CENTRED 0x00200000u // for 1 s the pad was within 8 cm + 5 % of the height of the point below the camera
-#define LANDING_FACT_LOW 0x00400000u // at the height for aligning, or below
-#define LANDING_FACT_ALIGNED 0x00800000u // centred, and for 1 s within 4 degrees of the pad's orientation
-#define LANDING_FACT_COMMITTED 0x01000000u // for 0.4 s without a break lower than TD_COMMIT_M, and than TD_ALIGN_M less 0.1 m, uncontradicted: landing is safer than turning back
+#define LANDING_FACT_AT_SEARCH 0x00200000u // within 0.2 m of the search height
+#define LANDING_FACT_CENTRED 0x00400000u // for 1 s the pad was within 8 cm + 5 % of the height of the point below the camera
+#define LANDING_FACT_LOW 0x00800000u // at the height for aligning, or below
+#define LANDING_FACT_ALIGNED 0x01000000u // centred, and for 1 s within 4 degrees of the pad's orientation
+#define LANDING_FACT_COMMITTED 0x02000000u // for 0.4 s without a break lower than TD_COMMIT_M, and than TD_ALIGN_M less 0.1 m, uncontradicted: landing is safer than turning back
 
 struct landing_phase_row {
     const char *name;

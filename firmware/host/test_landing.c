@@ -151,6 +151,7 @@ static void test_lidar_contradicts(void)
 static void test_settling(void)
 {
     const uint64_t t = 100U * (uint64_t)SECOND;
+    const uint32_t heights = LANDING_FACT_LOW | LANDING_FACT_HIGH | LANDING_FACT_AT_SEARCH;
 
     test_case("centred and aligned for a second");
     all_well(t);
@@ -171,12 +172,20 @@ static void test_settling(void)
     CHECK((facts_at(t + 99999U) & LANDING_FACT_CENTRED) == 0U);
     test_case("heights: of the pad while it is seen, else of the LiDAR, else none");
     known.pad.down_m = 0.9;
-    CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == LANDING_FACT_LOW);
+    CHECK((facts_at(t) & heights) == LANDING_FACT_LOW);
     known.pad_us = known.level_us = 0U;
     known.lidar_m = 1.75;
-    CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == LANDING_FACT_HIGH);
+    CHECK((facts_at(t) & heights) == (LANDING_FACT_HIGH | LANDING_FACT_AT_SEARCH));
+    known.lidar_m = 1.65;
+    CHECK((facts_at(t) & heights) == LANDING_FACT_AT_SEARCH);
+    known.lidar_m = 1.55;
+    CHECK((facts_at(t) & heights) == 0U);
+    known.lidar_m = 1.95;
+    CHECK((facts_at(t) & heights) == (LANDING_FACT_HIGH | LANDING_FACT_AT_SEARCH));
+    known.lidar_m = 2.05;
+    CHECK((facts_at(t) & heights) == LANDING_FACT_HIGH);
     known.lidar_us = 0U;
-    CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == 0U);
+    CHECK((facts_at(t) & heights) == 0U);
 }
 
 // Whether it is committed after it was not low at `from_us`, and at this height from then on.
@@ -262,7 +271,7 @@ static void test_steps(void)
         {LANDING_FACT_START, LANDING_PHASE_ENGAGE},
         {LANDING_FACT_IN_MODE, LANDING_PHASE_SEARCH},
         {LANDING_FACT_PAD, LANDING_PHASE_CENTRE},
-        {LANDING_FACT_PAD | LANDING_FACT_CENTRED, LANDING_PHASE_DESCEND},
+        {LANDING_FACT_PAD | LANDING_FACT_CENTRED | LANDING_FACT_AT_SEARCH, LANDING_PHASE_DESCEND},
         {LANDING_FACT_PAD | LANDING_FACT_CENTRED | LANDING_FACT_LOW, LANDING_PHASE_ALIGN},
         {LANDING_FACT_PAD_LOST, LANDING_PHASE_WAIT},
         {LANDING_FACT_TIME_OUT, LANDING_PHASE_CLIMB},

@@ -106,6 +106,17 @@ def test_normal_landing_to_motors_off(profile: str, board: Board) -> None:
     assert_lets_go(flight)
 
 
+@pytest.mark.parametrize("start_m", [0.9, 2.6])
+def test_phase_1_is_at_the_search_height_wherever_it_starts(start_m: float, board: Board) -> None:
+    """With the pad in sight from the beginning."""
+    flight = hover(board, height_m=start_m, north_m=-0.2, east_m=0.1)
+    to_phase(flight, "CENTRE")
+    assert abs(flight.vehicle.height_m - start_m) < 0.1
+    flight.run_to("pad below", 30)
+    assert 1.55 < flight.vehicle.height_m < 2.05
+    flight.run_to("down, motors off", 60)
+
+
 def test_landing_in_gusts(board: Board) -> None:
     flight = hover(board, ARDUPILOT, heading_rad=-2.0)
     random.seed(7)
