@@ -42,12 +42,22 @@ def test_no_rule_is_hidden_by_those_before_it(landing: Landing) -> None:
 
 
 def test_a_phase_that_commands_lets_go_of_pilot_and_silent_autopilot_first(landing: Landing) -> None:
-    """Whatever else holds."""
+    """Whatever else holds, but that it is down with its motors off: then nothing is commanded either."""
     everything = frozenset(fact.name for fact in landing.facts)
     for phase in landing.phases:
         if phase.mode != "none":
             assert landing.next(phase.name, everything).to == "STANDBY", phase.name
             assert landing.next(phase.name, everything - {"PILOT"}).to == "STANDBY", phase.name
+            assert landing.phase(landing.next(phase.name, everything - {"ARMED"}).to).mode == "none", phase.name
+
+
+@pytest.mark.parametrize("phase", ["LAND", "TOUCHDOWN"])
+@pytest.mark.parametrize("down", ["ON_GROUND", "COMMITTED"])
+def test_down_with_motors_off_is_landed_whatever_mode_comes_with_it(landing: Landing, phase: str, down: str) -> None:
+    """An autopilot may leave its landing mode as it disarms."""
+    assert landing.next(phase, frozenset({down, "PILOT", "AUTOPILOT_SILENT"})).to == "LANDED"
+    assert landing.next(phase, frozenset({down, "PILOT", "ARMED"})).to == "STANDBY"
+    assert landing.next(phase, frozenset({"PILOT"})).to == "STANDBY"
 
 
 @pytest.mark.parametrize("failure", FAILURES)
@@ -59,10 +69,16 @@ def test_a_phase_that_steers_answers_each_failure(landing: Landing, failure: str
 
 
 def test_every_phase_that_commands_has_a_limit_and_an_end(landing: Landing) -> None:
+    """Or it waits for a mode alone: test_waits_for_a_mode in test_flight.c says how long that takes."""
     for phase in landing.phases:
-        if phase.mode != "none":
-            assert phase.limit_s > 0, phase.name
+        if phase.mode != "none" and phase.limit_s > 0:
             assert landing.next(phase.name, frozenset({"ARMED", "TIME_OUT"})) is not None, phase.name
+        elif phase.mode != "none":
+            for ends in ("IN_MODE", "REFUSED"):
+                assert landing.next(phase.name, frozenset({"ARMED", ends})) is not None, phase.name
+    for rule in landing.rules:
+        if "TIME_OUT" in rule.when:
+            assert all(landing.phase(phase).limit_s > 0 for phase in rule.sources), rule.reason
 
 
 @pytest.mark.parametrize(
@@ -70,6 +86,9 @@ def test_every_phase_that_commands_has_a_limit_and_an_end(landing: Landing) -> N
     [
         ('to = "ENGAGE"', 'to = "ENGAGED"', "which is not defined"),
         ('mode = "hold"', 'mode = "sleep"', "there is not"),
+        ('mode = "hold", steer = "stop"', 'mode = "hold", steer = "climb"', "does not take"),
+        ('mode = "none", steer = "none"', 'mode = "none", steer = "stop"', "does not take"),
+        ('mode = "steer", steer = "stop"', 'mode = "steer", steer = "none"', "does not take"),
         ('reason = "start"', 'reason = "a reason that is too long to be read on the ground"', "longer than"),
         ("phases = [", "phases = [[", "is no TOML"),
         ("says =", "tells =", "lacks or misspells"),

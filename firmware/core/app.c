@@ -301,7 +301,10 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 
-    // A prediction is good for a target, not for steering.
+    if (tracker_has_begun(&app->tracker)) {
+        flight_on_new_track(&app->flight);
+    }
+    // A prediction is good for a target, not for steering: it neither counts as a frame with the pad nor as one without.
     if (track != TRACK_BRIDGED) {
         flight_on_frame(&app->flight, &app->attitude, found ? &pad : NULL, &altitude, exposed_us, now_us);
     }

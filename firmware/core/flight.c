@@ -91,12 +91,17 @@ void flight_on_message(struct flight *flight, struct links *links, enum app_link
     }
 }
 
+void flight_on_new_track(struct flight *flight)
+{
+    flight->known.pad_row = 0U;
+}
+
 void flight_on_frame(struct flight *flight, const struct attitude *attitude, const struct pad_estimate *pad,
                      const struct altitude *altitude, uint64_t exposed_us, uint64_t now_us)
 {
     struct landing_known *known = &flight->known;
-    double roll_rad = attitude->roll_rad;
-    double pitch_rad = attitude->pitch_rad;
+    double roll_rad = 0.0;
+    double pitch_rad = 0.0;
 
     known->record_us = now_us;
     if (pad == NULL) {
@@ -106,14 +111,21 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
     const double scale = altitude->pad_scale;
 
     known->pad_us = now_us;
-    known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;
-    // Without a fresh attitude no one steers by it.
-    (void)attitude_at(attitude, exposed_us, now_us, &roll_rad, &pitch_rad);
-    known->pad = steering_level(roll_rad, pitch_rad, pad->right_m * scale, pad->forward_m * scale,
-                                pad->depth_m * scale, RAD_PER_DEG * pad->angle_deg);
     if (!altitude->lidar_implausible) {
         known->agreed_us = now_us;
     }
+    // Seen it is; but turned level by an old attitude it would be steered by as soon as ATTITUDE is back.
+    if (!attitude_at(attitude, exposed_us, now_us, &roll_rad, &pitch_rad)) {
+        known->pad_row = 0U;
+        return;
+    }
+    if (now_us > known->level_us + LANDING_PAD_FRESH_US) {
+        known->pad_row = 0U;
+    }
+    known->level_us = now_us;
+    known->pad_row += known->pad_row < UINT32_MAX ? 1U : 0U;
+    known->pad = steering_level(roll_rad, pitch_rad, pad->right_m * scale, pad->forward_m * scale,
+                                pad->depth_m * scale, RAD_PER_DEG * pad->angle_deg);
 }
 
 static void send_command(struct links *links, const struct autopilot_command *command, uint8_t confirmation)
@@ -126,16 +138,25 @@ static void send_command(struct links *links, const struct autopilot_command *co
                mavlink_out_command(&links->out[APP_LINK_AUTOPILOT], &out, bytes));
 }
 
+// A phase that wants another mode stops the vehicle until the autopilot leaves the one in which it obeys velocities.
+static bool takes_velocity(const struct flight *flight)
+{
+    const struct landing_phase_row *phase = &landing_phase_table[flight->landing.phase];
+
+    return phase->steer != LANDING_STEER_NONE &&
+           (phase->mode == LANDING_MODE_STEER || autopilot_is_in(&flight->autopilot, LANDING_MODE_STEER));
+}
+
 static void send_velocity(struct flight *flight, struct links *links, uint64_t now_us)
 {
     const enum landing_steer steer = landing_phase_table[flight->landing.phase].steer;
     uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
 
-    if (steer == LANDING_STEER_NONE || now_us < flight->next_velocity_us) {
+    if (!takes_velocity(flight) || now_us < flight->next_velocity_us) {
         return;
     }
     struct steering_view view = {
-        .pad_known = landing_pad_is_fresh(&flight->known, now_us),
+        .pad_known = landing_sees_pad(&flight->known, now_us),
         .pad = flight->known.pad,
         .phase_us = now_us - flight->landing.entered_us,
     };

@@ -49,6 +49,9 @@ void flight_init(struct flight *flight, const struct rates *rates, uint64_t now_
 void flight_on_message(struct flight *flight, struct links *links, enum app_link link,
                        const struct mavlink_in_message *message, uint64_t now_us);
 
+// The pad in the next frame need not be the one before: it has to be seen in a row of frames of its own.
+void flight_on_new_track(struct flight *flight);
+
 // Each good record: `pad` is what was measured in it, NULL when none was; `exposed_us` is when.
 void flight_on_frame(struct flight *flight, const struct attitude *attitude, const struct pad_estimate *pad,
                      const struct altitude *altitude, uint64_t exposed_us, uint64_t now_us);

@@ -5,18 +5,23 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "bounds.h"
+
 #define US_PER_S 1000000U
 #define CAMERA_LOST_US 300000U
 #define LIDAR_STALE_US 300000U
 #define ATTITUDE_STALE_US 250000U
 #define CONTRADICTS_US 500000U
-#define PAD_FRESH_US 100000U
 #define PAD_LOST_US 500000U
 #define PAD_ROW_MIN 5U
 #define GROUND_LOST_US 5000000U
 #define SETTLED_US 1000000U
 #define ALIGNED_RAD 0.07
 #define HIGH_TOLERANCE_M 0.1
+#define AT_SEARCH_TOLERANCE_M 0.2
+// Longer than one reading of the LiDAR counts: 60 ms in the hardware, then until it is stale.
+#define COMMIT_AFTER_US 400000U
+#define COMMIT_BELOW_ALIGN_M 0.1 // from the height for aligning LAND can always turn back
 
 void landing_init(struct landing *landing, uint64_t now_us)
 {
@@ -31,14 +36,15 @@ static bool is_fresh(uint64_t arrived_us, uint64_t now_us, uint64_t most_us)
     return arrived_us != 0U && now_us <= arrived_us + most_us;
 }
 
-bool landing_pad_is_fresh(const struct landing_known *known, uint64_t now_us)
+bool landing_sees_pad(const struct landing_known *known, uint64_t now_us)
 {
-    return is_fresh(known->pad_us, now_us, PAD_FRESH_US) && is_fresh(known->attitude_us, now_us, ATTITUDE_STALE_US);
+    return known->pad_row >= PAD_ROW_MIN && is_fresh(known->level_us, now_us, LANDING_PAD_FRESH_US) &&
+           is_fresh(known->attitude_us, now_us, ATTITUDE_STALE_US);
 }
 
 bool landing_height_m(const struct landing_known *known, uint64_t now_us, double *height_m)
 {
-    if (landing_pad_is_fresh(known, now_us)) {
+    if (landing_sees_pad(known, now_us)) {
         *height_m = known->pad.down_m;
         return true;
     }
@@ -71,7 +77,7 @@ static uint32_t autopilot_facts(const struct landing *landing, const struct land
 static uint32_t sensor_facts(const struct landing_known *known, uint64_t now_us)
 {
     // Only while the pad is seen is there a size to contradict.
-    const bool contradicts = is_fresh(known->pad_us, now_us, PAD_FRESH_US) &&
+    const bool contradicts = is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) &&
                              !is_fresh(known->agreed_us, now_us, CONTRADICTS_US);
     const bool ground_lost = known->parameters->ground_needed >= 0.5F &&
                              !is_fresh(known->ground_us, now_us, GROUND_LOST_US);
@@ -82,10 +88,22 @@ static uint32_t sensor_facts(const struct landing_known *known, uint64_t now_us)
            when(contradicts, LANDING_FACT_LIDAR_CONTRADICTS) | when(ground_lost, LANDING_FACT_GROUND_LOST);
 }
 
+static bool is_low_to_commit(const struct landing_known *known, uint64_t now_us)
+{
+    const struct parameters *parameters = known->parameters;
+    const double below_m = at_most((double)parameters->commit_height_m,
+                                   (double)parameters->align_height_m - COMMIT_BELOW_ALIGN_M);
+    // Of two heights that contradict each other one is wrong.
+    const bool contradicted = is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) && known->agreed_us != known->pad_us;
+    double height_m;
+
+    return !contradicted && landing_height_m(known, now_us, &height_m) && height_m < below_m;
+}
+
 static uint32_t pad_facts(struct landing *landing, const struct landing_known *known, uint64_t now_us)
 {
     const struct parameters *parameters = known->parameters;
-    const bool seen = landing_pad_is_fresh(known, now_us) && known->pad_row >= PAD_ROW_MIN;
+    const bool seen = landing_sees_pad(known, now_us);
     const double off_m = hypot(known->pad.forward_m, known->pad.right_m);
     double height_m = 0.0;
     const bool high_known = landing_height_m(known, now_us, &height_m);
@@ -96,16 +114,19 @@ static uint32_t pad_facts(struct landing *landing, const struct landing_known *k
     if (!seen || fabs(known->pad.angle_rad) > ALIGNED_RAD) {
         landing->off_angle_us = now_us;
     }
-    if (landing->phase == LANDING_PHASE_LAND && high_known && height_m < (double)parameters->commit_height_m) {
-        landing->committed = true;
+    if (!is_low_to_commit(known, now_us)) {
+        landing->not_low_us = now_us;
     }
+    landing->committed = landing->committed || (landing->phase == LANDING_PHASE_LAND &&
+                                                now_us >= landing->not_low_us + COMMIT_AFTER_US);
     const bool centred = now_us >= landing->off_centre_us + SETTLED_US;
     const bool aligned = centred && now_us >= landing->off_angle_us + SETTLED_US;
-    const bool high = high_known && height_m >= (double)parameters->search_height_m - HIGH_TOLERANCE_M;
+    const double above_search_m = height_m - (double)parameters->search_height_m;
 
     return when(seen, LANDING_FACT_PAD) | when(!is_fresh(known->pad_us, now_us, PAD_LOST_US), LANDING_FACT_PAD_LOST) |
            when(centred, LANDING_FACT_CENTRED) | when(aligned, LANDING_FACT_ALIGNED) |
-           when(high, LANDING_FACT_HIGH) |
+           when(high_known && above_search_m >= -HIGH_TOLERANCE_M, LANDING_FACT_HIGH) |
+           when(high_known && fabs(above_search_m) <= AT_SEARCH_TOLERANCE_M, LANDING_FACT_AT_SEARCH) |
            when(high_known && height_m <= (double)parameters->align_height_m, LANDING_FACT_LOW) |
            when(landing->committed, LANDING_FACT_COMMITTED) |
            when((float)landing->times_lost > parameters->tries, LANDING_FACT_TRIES_USED);
@@ -140,6 +161,7 @@ static void enter(struct landing *landing, enum landing_phase phase, uint64_t no
     landing->committed = landing->committed && phase == LANDING_PHASE_TOUCHDOWN;
     landing->off_centre_us = now_us;
     landing->off_angle_us = now_us;
+    landing->not_low_us = now_us;
     landing->phase = phase;
     landing->entered_us = now_us;
 }

@@ -16,6 +16,9 @@
 #define LANDING_ASKED                                                                                                  \
     (LANDING_FACT_START | LANDING_FACT_ABORT | LANDING_FACT_PAUSE | LANDING_FACT_GO_ON)
 
+// A pad that was seen longer ago is not seen.
+#define LANDING_PAD_FRESH_US 100000U
+
 // What is known in a cycle. Times are of arrival, 0 = never.
 struct landing_known {
     const struct autopilot *autopilot;
@@ -26,8 +29,9 @@ struct landing_known {
     double lidar_m;       // its height along the plumb line
     uint64_t attitude_us; // newest ATTITUDE that is one
     uint64_t pad_us;      // newest frame with the pad
-    uint32_t pad_row;     // frames with it in a row
+    uint64_t level_us;    // newest frame whose pad could be turned level
     struct level_pad pad; // in that frame
+    uint32_t pad_row;     // such frames in a row, of one track
     uint64_t agreed_us;   // newest frame in which the LiDAR did not contradict the pad's size
     uint64_t ground_us;   // newest HEARTBEAT of a ground station
 };
@@ -37,6 +41,7 @@ struct landing {
     uint64_t entered_us;
     uint64_t off_centre_us; // when the pad was last not centred
     uint64_t off_angle_us;  // when it was last not aligned
+    uint64_t not_low_us;    // when it was last not low enough to commit
     bool committed;
     uint32_t times_lost;
 };
@@ -52,7 +57,7 @@ const struct landing_rule *landing_step(struct landing *landing, uint32_t facts,
 // The height above ground, along the plumb line; false when nothing fresh says.
 bool landing_height_m(const struct landing_known *known, uint64_t now_us, double *height_m);
 
-// True when the pad was seen just now and what is level is known: then it may be steered by.
-bool landing_pad_is_fresh(const struct landing_known *known, uint64_t now_us);
+// True when the pad is seen, in a row of frames, and what is level is known: then it may be steered by.
+bool landing_sees_pad(const struct landing_known *known, uint64_t now_us);
 
 #endif

@@ -114,13 +114,16 @@ struct mavlink_out_velocity steering_velocity(enum landing_steer steer, const st
         return velocity;
     }
     velocity = above_pad(view, parameters);
-    if (steer == LANDING_STEER_DESCEND) {
-        const double off_m = hypot(view->pad.forward_m, view->pad.right_m);
+    const bool in_cone = hypot(view->pad.forward_m, view->pad.right_m) <=
+                         DESCENT_CONE * steering_centred_m(view->pad.down_m);
 
-        if (off_m <= DESCENT_CONE * steering_centred_m(view->pad.down_m)) {
-            velocity.down_m_s = towards_height_m_s(view, (double)parameters->align_height_m - BELOW_ALIGN_M,
-                                                   (double)parameters->descent_m_s);
-        }
+    if (steer == LANDING_STEER_CENTRE) {
+        velocity.down_m_s = towards_height_m_s(view, (double)parameters->search_height_m,
+                                               in_cone ? (double)parameters->descent_m_s : 0.0);
+    }
+    if (steer == LANDING_STEER_DESCEND && in_cone) {
+        velocity.down_m_s = towards_height_m_s(view, (double)parameters->align_height_m - BELOW_ALIGN_M,
+                                               (double)parameters->descent_m_s);
     }
     if (steer == LANDING_STEER_ALIGN) {
         const double most_rad_s = RAD_PER_DEG * (double)parameters->yaw_rate_deg_s;

@@ -27,6 +27,11 @@ void tracker_init(struct tracker *tracker)
     memset(tracker, 0, sizeof *tracker);
 }
 
+bool tracker_has_begun(const struct tracker *tracker)
+{
+    return tracker->hits == 1U;
+}
+
 static double turned(double degrees)
 {
     return degrees - 360.0 * floor((degrees + 180.0) / 360.0);

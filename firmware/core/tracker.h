@@ -38,6 +38,9 @@ enum track_result {
 
 void tracker_init(struct tracker *tracker);
 
+// True when the newest frame's detection began a track: it need not be the pad that was followed before.
+bool tracker_has_begun(const struct tracker *tracker);
+
 // One frame: `found` says whether `pad` holds a detection.
 enum track_result tracker_update(struct tracker *tracker, const struct camera *camera, uint64_t frame_us, bool found,
                                  struct pad_estimate *pad);

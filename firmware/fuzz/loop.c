@@ -136,11 +136,11 @@ static void tick(void)
     sent.now_us = now_us;
     app_tick(&app, now_us, lidar_there ? &lidar : NULL);
     DEMAND(app.flight.landing.phase < LANDING_PHASES);
+    const enum landing_mode mode = landing_phase_table[app.flight.landing.phase].mode;
     DEMAND(sent.count[APP_LINK_AUTOPILOT] + sent.count[APP_LINK_GROUND] - before <= TICK_MESSAGES_MAX);
     // No one lands who was not asked to, and whoever asks for an end gets it.
     DEMAND(commanded || !commands() || (asked & LANDING_FACT_START) != 0U);
-    DEMAND((asked & LANDING_FACT_ABORT) == 0U ||
-           landing_phase_table[app.flight.landing.phase].steer == LANDING_STEER_NONE);
+    DEMAND((asked & LANDING_FACT_ABORT) == 0U || mode == LANDING_MODE_NONE || mode == LANDING_MODE_HOLD);
     DEMAND(!commands() || (autopilot_is_heard(autopilot, now_us) && autopilot->armed && !autopilot->mode_taken));
 }
 

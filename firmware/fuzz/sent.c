@@ -93,6 +93,9 @@ static void check_velocity(const struct sent *sent, const struct frame *frame)
     const float most = steer == LANDING_STEER_SEARCH ? SEARCH_M_S : parameters->speed_m_s;
 
     DEMAND(steer != LANDING_STEER_NONE);
+    // On the way to another mode they only stop it, and only where they are obeyed.
+    DEMAND(landing_phase_table[flight->landing.phase].mode == LANDING_MODE_STEER ||
+           (steer == LANDING_STEER_STOP && autopilot_is_in(&flight->autopilot, LANDING_MODE_STEER)));
     DEMAND(autopilot_is_heard(&flight->autopilot, sent->now_us) && flight->autopilot.armed);
     DEMAND(!flight->autopilot.mode_taken);
     DEMAND(frame_u16(frame, 48U) == VELOCITY_AND_YAW_RATE && frame->payload[52] == (uint8_t)MAV_FRAME_BODY_NED);
@@ -100,11 +103,11 @@ static void check_velocity(const struct sent *sent, const struct frame *frame)
     DEMAND(down >= -CLIMB_M_S - ROUNDING && down <= parameters->descent_m_s + ROUNDING);
     DEMAND(fabsf(yaw) <= RAD_PER_DEG * parameters->yaw_rate_deg_s + ROUNDING);
     DEMAND(yaw == 0.0F || steer == LANDING_STEER_ALIGN);
-    DEMAND(down <= 0.0F || steer == LANDING_STEER_DESCEND);
+    DEMAND(down <= 0.0F || steer == LANDING_STEER_DESCEND || steer == LANDING_STEER_CENTRE);
     DEMAND(steer != LANDING_STEER_STOP || (forward == 0.0F && right == 0.0F && down == 0.0F));
     DEMAND(steer != LANDING_STEER_CLIMB || (forward == 0.0F && right == 0.0F));
     DEMAND(steer == LANDING_STEER_SEARCH || (forward == 0.0F && right == 0.0F && yaw == 0.0F) ||
-           landing_pad_is_fresh(&flight->known, sent->now_us));
+           landing_sees_pad(&flight->known, sent->now_us));
 }
 
 static void check_mode(const struct flight *flight, const struct frame *frame)

@@ -59,14 +59,15 @@ enum landing_steer {
 #define LANDING_FACT_LIDAR_STALE 0x00004000u // no usable reading for 0.3 s
 #define LANDING_FACT_LIDAR_CONTRADICTS 0x00008000u // for 0.5 s each reading has contradicted the pad's size
 #define LANDING_FACT_ATTITUDE_STALE 0x00010000u // no ATTITUDE for 0.25 s: what is level is not known
-#define LANDING_FACT_PAD 0x00020000u // the pad is seen: in 5 frames in a row, the last not older than 0.1 s
+#define LANDING_FACT_PAD 0x00020000u // the pad is seen: in 5 frames in a row of one track, with no gap of more than 0.1 s and a fresh ATTITUDE to each; a frame that the tracker bridges does not count
 #define LANDING_FACT_PAD_LOST 0x00040000u // no frame with the pad for 0.5 s
 #define LANDING_FACT_TRIES_USED 0x00080000u // it had to WAIT more than TD_TRIES times since the start
 #define LANDING_FACT_HIGH 0x00100000u // within 0.1 m of the search height, or above
-#define LANDING_FACT_CENTRED 0x00200000u // for 1 s the pad was within 8 cm + 5 % of the height of the point below the camera
-#define LANDING_FACT_LOW 0x00400000u // at the height for aligning, or below
-#define LANDING_FACT_ALIGNED 0x00800000u // centred, and for 1 s within 4 degrees of the pad's orientation
-#define LANDING_FACT_COMMITTED 0x01000000u // lower than TD_COMMIT_M: landing is safer than turning back
+#define LANDING_FACT_AT_SEARCH 0x00200000u // within 0.2 m of the search height
+#define LANDING_FACT_CENTRED 0x00400000u // for 1 s the pad was within 8 cm + 5 % of the height of the point below the camera
+#define LANDING_FACT_LOW 0x00800000u // at the height for aligning, or below
+#define LANDING_FACT_ALIGNED 0x01000000u // centred, and for 1 s within 4 degrees of the pad's orientation
+#define LANDING_FACT_COMMITTED 0x02000000u // for 0.4 s without a break lower than TD_COMMIT_M, and than TD_ALIGN_M less 0.1 m, uncontradicted: landing is safer than turning back
 
 struct landing_phase_row {
     const char *name;
@@ -84,7 +85,7 @@ struct landing_rule {
     const char *reason;
 };
 
-#define LANDING_RULES 61u
+#define LANDING_RULES 59u
 
 extern const struct landing_phase_row landing_phase_table[LANDING_PHASES];
 extern const struct landing_rule landing_rules[LANDING_RULES];

@@ -226,6 +226,30 @@ static double doubt_after(enum app_link link, uint64_t later_us)
     return (double)array[APP_PAD_DOUBT];
 }
 
+static uint32_t row_after(struct landing_record *record)
+{
+    tell_attitude(APP_LINK_AUTOPILOT, 0.0, 0.0);
+    show(record);
+    return app.flight.known.pad_row;
+}
+
+static void test_row_of_frames(void)
+{
+    test_case("frames with the pad count, one that is bridged does not");
+    start();
+    for (uint32_t i = 1U; i <= CONFIRMED; i++) {
+        CHECK(row_after(&with_pad) == i);
+    }
+    CHECK(row_after(&empty) == CONFIRMED);
+    CHECK(row_after(&with_pad) == CONFIRMED + 1U);
+    test_case("a pad elsewhere has a row of its own");
+    CHECK(row_after(&elsewhere) == CONFIRMED + 1U);
+    CHECK(row_after(&elsewhere) == CONFIRMED + 1U);
+    CHECK(row_after(&elsewhere) == 1U);
+    CHECK(row_after(&elsewhere) == 2U);
+    CHECK(row_after(&with_pad) == 1U);
+}
+
 static void test_attitude_of_the_autopilot(void)
 {
     start();
@@ -339,5 +363,6 @@ void test_app_track(void)
     test_bridges();
     test_refuses();
     test_factors();
+    test_row_of_frames();
     test_attitude_of_the_autopilot();
 }

@@ -12,7 +12,9 @@
 #define TICK_US 10000U
 #define SWITCH 7 // the channel of TD_RC_CHAN, from 0
 #define GUIDED 4U
+#define LOITER 5U
 #define LAND 9U
+#define BRAKE 17U
 
 static struct flight flight;
 static struct links links;
@@ -147,6 +149,7 @@ static void test_frames(void)
 {
     test_case("a frame with the pad: as large as the altitude says, counted, and whether the LiDAR agrees");
     start();
+    attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
     frame(0.4, 2.0, 90.0, true);
     NEAR(flight.known.pad.forward_m, 0.4, 1e-9);
     NEAR(flight.known.pad.down_m, 2.0, 1e-9);
@@ -159,6 +162,17 @@ static void test_frames(void)
     flight.known.pad_row = UINT32_MAX;
     frame(0.4, 2.0, 90.0, true);
     CHECK(flight.known.pad_row == UINT32_MAX);
+    test_case("a tenth of a second without frames begins the count anew, as does a pad that need not be the same");
+    flight.known.pad_row = 4U;
+    now_us += 100000U;
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_row == 5U);
+    now_us += 100001U;
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_row == 1U);
+    flight_on_new_track(&flight);
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_row == 1U);
     test_case("a frame without the pad begins the count anew");
     now_us += TICK_US;
     flight_on_frame(&flight, &attitude, NULL, &(struct altitude){.height_m = 2.0}, now_us, now_us);
@@ -198,6 +212,14 @@ static int velocities(void)
     return wire_count(APP_LINK_AUTOPILOT, MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED);
 }
 
+static bool stands(const mavlink_message_t *velocity)
+{
+    return mavlink_msg_set_position_target_local_ned_get_vx(velocity) == 0.0F &&
+           mavlink_msg_set_position_target_local_ned_get_vy(velocity) == 0.0F &&
+           mavlink_msg_set_position_target_local_ned_get_vz(velocity) == 0.0F &&
+           mavlink_msg_set_position_target_local_ned_get_yaw_rate(velocity) == 0.0F;
+}
+
 // Commands of a kind to the autopilot; the first parameter but one is that of the newest.
 static int commands(uint16_t number, float *second)
 {
@@ -215,7 +237,7 @@ static void test_streams(void)
 
     test_case("before a landing telemetry is asked for, and nothing else");
     start();
-    fly(5000U, 5U, 0.0, 1.5);
+    fly(5000U, LOITER, 0.0, 1.5);
     CHECK(commands((uint16_t)MAV_CMD_SET_MESSAGE_INTERVAL, &interval_us) == 1 && interval_us == 20000.0F);
     CHECK(velocities() == 0);
     test_case("with no attitude none is known, with no LiDAR no height");
@@ -239,7 +261,7 @@ static void engage(void)
     for (size_t i = 0; i < AUTOPILOT_STREAMS; i++) {
         flight.autopilot.next_stream_us[i] = UINT64_MAX;
     }
-    fly(SECOND, 5U, 0.3, 1.8);
+    fly(SECOND, LOITER, 0.3, 1.8);
     CHECK(velocities() == 0 && flight.logged == 0U);
     ask((uint16_t)MAV_CMD_NAV_LAND);
     wire_clear();
@@ -251,15 +273,15 @@ static void test_engage(void)
 
     test_case("a start: it stands still and asks for the mode, after setpoints that PX4 wants to see first");
     engage();
-    fly(290000U, 5U, 0.3, 1.8);
+    fly(290000U, LOITER, 0.3, 1.8);
     CHECK(flight.landing.phase == LANDING_PHASE_ENGAGE && flight.logged == 1U);
     CHECK(strcmp(wire_text(), "Touchdown: start") == 0);
     CHECK(velocities() >= 7 && velocities() <= 9); // 30 Hz
     CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) == 0.0F);
     CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 0);
-    fly(30000U, 5U, 0.3, 1.8);
+    fly(30000U, LOITER, 0.3, 1.8);
     CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 1 && mode == (float)GUIDED);
-    fly(500000U, 5U, 0.3, 1.8);
+    fly(500000U, LOITER, 0.3, 1.8);
     CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 2);
     CHECK(mavlink_msg_command_long_get_confirmation(wire_last(APP_LINK_AUTOPILOT, MAVLINK_MSG_ID_COMMAND_LONG)) == 1U);
     test_case("in the mode it flies towards the pad, by the gain and no faster than allowed");
@@ -278,17 +300,156 @@ static void test_abort(void)
 {
     float mode;
 
-    test_case("an abort ends the velocities at once and hands the vehicle back");
+    test_case("an abort stops it at once and for as long as the autopilot stays in the steering mode");
     engage();
     fly(500000U, GUIDED, 0.3, 1.8);
-    CHECK(velocities() > 10);
+    CHECK(velocities() > 10 && !stands(newest_velocity()));
     ask((uint16_t)MAV_CMD_DO_GO_AROUND);
     wire_clear();
+    fly(TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(velocities() == 1 && stands(newest_velocity()) && flight.landing.phase == LANDING_PHASE_GIVE_UP);
     fly(600000U, GUIDED, 0.3, 1.8);
-    CHECK(velocities() == 0 && flight.landing.phase == LANDING_PHASE_GIVE_UP);
-    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 2 && mode == 17.0F);
-    fly(TICK_US, 17U, 0.3, 1.8);
+    CHECK(velocities() >= 15 && stands(newest_velocity()));
+    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 2 && mode == (float)BRAKE);
+    test_case("handed back, it commands nothing any more");
+    wire_clear();
+    fly(TICK_US, BRAKE, 0.3, 1.8);
     CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
+    fly(SECOND, GUIDED, 0.3, 1.8);
+    CHECK(velocities() == 0);
+    test_case("an abort before the autopilot can be steered sends no velocity");
+    engage();
+    fly(100000U, LOITER, 0.3, 1.8);
+    ask((uint16_t)MAV_CMD_DO_GO_AROUND);
+    wire_clear();
+    fly(600000U, LOITER, 0.3, 1.8);
+    CHECK(velocities() == 0 && flight.landing.phase == LANDING_PHASE_GIVE_UP);
+}
+
+static void answer_mode_requests(uint8_t result)
+{
+    struct mavlink_in_message message = {.kind = MAVLINK_IN_ACK};
+
+    message.as.ack = (struct mavlink_in_ack){.command = (uint16_t)MAV_CMD_DO_SET_MODE, .result = result};
+    of_autopilot(message);
+}
+
+// How long it waits for a mode that does not come, in a phase that has no limit.
+static uint64_t wait_us(enum landing_phase phase, uint32_t mode, int result)
+{
+    const uint64_t since_us = now_us;
+
+    while (flight.landing.phase == phase && now_us < since_us + 60U * (uint64_t)SECOND) {
+        fly(TICK_US, mode, 0.3, 1.8);
+        if (result >= 0) {
+            answer_mode_requests((uint8_t)result);
+        }
+    }
+    return now_us - since_us;
+}
+
+static void test_waits_for_a_mode(void)
+{
+    static const int results[] = {-1, MAV_RESULT_ACCEPTED, MAV_RESULT_TEMPORARILY_REJECTED, MAV_RESULT_FAILED,
+                                  MAV_RESULT_IN_PROGRESS};
+
+    for (size_t i = 0; i < sizeof results / sizeof results[0]; i++) {
+        test_case("a mode that does not come is refused within 3 s, answer %d", results[i]);
+        engage();
+        fly(TICK_US, LOITER, 0.3, 1.8);
+        CHECK(flight.landing.phase == LANDING_PHASE_ENGAGE);
+        CHECK(wait_us(LANDING_PHASE_ENGAGE, LOITER, results[i]) <= 3U * SECOND);
+        CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
+        engage();
+        fly(500000U, GUIDED, 0.3, 1.8);
+        ask((uint16_t)MAV_CMD_DO_GO_AROUND);
+        fly(TICK_US, GUIDED, 0.3, 1.8);
+        CHECK(flight.landing.phase == LANDING_PHASE_GIVE_UP);
+        CHECK(wait_us(LANDING_PHASE_GIVE_UP, GUIDED, results[i]) <= 3U * SECOND);
+        CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
+    }
+}
+
+static void test_gap(void)
+{
+    test_case("after a while without frames the pad is not steered by before it was seen in five");
+    engage();
+    fly(500000U, GUIDED, 0.3, 1.8);
+    const uint64_t until_us = now_us + 2U * SECOND;
+    while (now_us < until_us) {
+        now_us += TICK_US;
+        heartbeat(GUIDED, true);
+        attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    }
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT);
+    fly(4U * TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT);
+    fly(TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_CENTRE);
+    test_case("nor is another one");
+    fly(100000U, GUIDED, 0.3, 1.8);
+    CHECK(!stands(newest_velocity()));
+    flight_on_new_track(&flight);
+    fly(4U * TICK_US, GUIDED, -0.5, 1.8);
+    CHECK(stands(newest_velocity()) && flight.landing.phase == LANDING_PHASE_CENTRE);
+    fly(100000U, GUIDED, -0.5, 1.8);
+    CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) < 0.0F);
+}
+
+static void test_no_attitude(void)
+{
+    test_case("a pad of a frame without an attitude is seen, and not steered by, before or after ATTITUDE is back");
+    engage();
+    fly(500000U, GUIDED, 0.3, 1.8);
+    const uint64_t until_us = now_us + SECOND;
+    while (now_us < until_us) {
+        now_us += TICK_US;
+        heartbeat(GUIDED, true);
+        frame(-0.9, 1.8, 0.0, true);
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    }
+    const uint32_t facts = landing_facts(&flight.landing, &flight.known, now_us);
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT && flight.known.pad_row == 0U);
+    CHECK((facts & LANDING_FACT_ATTITUDE_STALE) != 0U && (facts & LANDING_FACT_PAD) == 0U);
+    CHECK((facts & (LANDING_FACT_PAD_LOST | LANDING_FACT_CAMERA_LOST | LANDING_FACT_LIDAR_CONTRADICTS)) == 0U);
+    // The frame before was turned level without it.
+    attitude_set(&attitude, 0.0, 0.0, now_us, now_us);
+    flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    CHECK(!landing_sees_pad(&flight.known, now_us));
+    fly(4U * TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_WAIT && stands(newest_velocity()));
+    fly(TICK_US, GUIDED, 0.3, 1.8);
+    CHECK(flight.landing.phase == LANDING_PHASE_CENTRE);
+    test_case("while the autopilot lands by itself the pad is not lost for want of an attitude");
+    fly(2U * SECOND, GUIDED, 0.0, 1.8);
+    fly(3U * SECOND, GUIDED, 0.0, 0.9);
+    CHECK(flight.landing.phase == LANDING_PHASE_LAND);
+    for (int i = 0; i < 100; i++) {
+        now_us += TICK_US;
+        heartbeat(LAND, true);
+        frame(0.0, 0.8, 0.0, true);
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    }
+    CHECK(flight.landing.phase == LANDING_PHASE_LAND);
+}
+
+static void test_down_and_another_mode(void)
+{
+    struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
+
+    test_case("down with motors off is landed, also where the mode changes with it");
+    engage();
+    fly(2U * SECOND, GUIDED, 0.0, 1.8);
+    fly(3U * SECOND, GUIDED, 0.0, 0.9);
+    fly(SECOND, LAND, 0.0, 0.3);
+    landed.as.landed_state = (uint8_t)MAV_LANDED_STATE_ON_GROUND;
+    of_autopilot(landed);
+    fly(SECOND, LAND, 0.0, 0.1);
+    CHECK(flight.landing.phase == LANDING_PHASE_TOUCHDOWN);
+    heartbeat(LOITER, false);
+    flight_tick(&flight, &links, &attitude, &lidar, now_us);
+    CHECK(flight.landing.phase == LANDING_PHASE_LANDED);
 }
 
 static void test_down(void)
@@ -296,16 +457,22 @@ static void test_down(void)
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
     float force;
 
-    test_case("centred it goes down, aligned it lands, on the ground it asks for the motors off without force");
+    test_case("centred it goes down, aligned it lands");
     engage();
     fly(2U * SECOND, GUIDED, 0.0, 1.8);
     CHECK(flight.landing.phase == LANDING_PHASE_DESCEND);
     NEAR((double)mavlink_msg_set_position_target_local_ned_get_vz(newest_velocity()), 0.25, 1e-6);
     fly(3U * SECOND, GUIDED, 0.0, 0.9);
     CHECK(flight.landing.phase == LANDING_PHASE_LAND);
+    test_case("it stands still until the autopilot lands");
+    CHECK(stands(newest_velocity()));
+    wire_clear();
+    fly(100000U, GUIDED, 0.1, 0.9);
+    CHECK(velocities() >= 2 && stands(newest_velocity()));
     wire_clear();
     fly(SECOND, LAND, 0.0, 0.3);
     CHECK(velocities() == 0 && flight.landing.committed);
+    test_case("on the ground it asks for the motors off, without force");
     landed.as.landed_state = (uint8_t)MAV_LANDED_STATE_ON_GROUND;
     of_autopilot(landed);
     wire_clear();
@@ -330,5 +497,9 @@ void test_flight(void)
     test_streams();
     test_engage();
     test_abort();
+    test_waits_for_a_mode();
+    test_gap();
+    test_no_attitude();
+    test_down_and_another_mode();
     test_down();
 }

@@ -7,6 +7,7 @@
 #include "test.h"
 
 #define SECOND 1000000U
+#define COMMIT_AFTER_US 400000U
 
 static struct landing landing;
 static struct autopilot autopilot;
@@ -25,7 +26,8 @@ static void all_well(uint64_t now_us)
     parameters_init(&parameters);
     known.autopilot = &autopilot;
     known.parameters = &parameters;
-    known.record_us = known.lidar_us = known.attitude_us = known.pad_us = known.agreed_us = known.ground_us = now_us;
+    known.record_us = known.lidar_us = known.attitude_us = known.agreed_us = known.ground_us = now_us;
+    known.pad_us = known.level_us = now_us;
     known.lidar_m = 1.5;
     known.pad_row = 5U;
     known.pad.down_m = 1.5;
@@ -71,7 +73,7 @@ static void test_each_fact(void)
     CHECK((facts_at(t) & LANDING_FACT_PAD) == 0U);
     test_case("never heard of is old");
     known.record_us = 0U;
-    known.lidar_us = known.attitude_us = known.pad_us = 0U;
+    known.lidar_us = known.attitude_us = known.pad_us = known.level_us = 0U;
     CHECK((facts_at(1U) & (LANDING_FACT_CAMERA_LOST | LANDING_FACT_LIDAR_STALE | LANDING_FACT_ATTITUDE_STALE |
                            LANDING_FACT_PAD_LOST)) ==
           (LANDING_FACT_CAMERA_LOST | LANDING_FACT_LIDAR_STALE | LANDING_FACT_ATTITUDE_STALE | LANDING_FACT_PAD_LOST));
@@ -149,6 +151,7 @@ static void test_lidar_contradicts(void)
 static void test_settling(void)
 {
     const uint64_t t = 100U * (uint64_t)SECOND;
+    const uint32_t heights = LANDING_FACT_LOW | LANDING_FACT_HIGH | LANDING_FACT_AT_SEARCH;
 
     test_case("centred and aligned for a second");
     all_well(t);
@@ -169,12 +172,75 @@ static void test_settling(void)
     CHECK((facts_at(t + 99999U) & LANDING_FACT_CENTRED) == 0U);
     test_case("heights: of the pad while it is seen, else of the LiDAR, else none");
     known.pad.down_m = 0.9;
-    CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == LANDING_FACT_LOW);
-    known.pad_us = 0U;
+    CHECK((facts_at(t) & heights) == LANDING_FACT_LOW);
+    known.pad_us = known.level_us = 0U;
     known.lidar_m = 1.75;
-    CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == LANDING_FACT_HIGH);
+    CHECK((facts_at(t) & heights) == (LANDING_FACT_HIGH | LANDING_FACT_AT_SEARCH));
+    known.lidar_m = 1.65;
+    CHECK((facts_at(t) & heights) == LANDING_FACT_AT_SEARCH);
+    known.lidar_m = 1.55;
+    CHECK((facts_at(t) & heights) == 0U);
+    known.lidar_m = 1.95;
+    CHECK((facts_at(t) & heights) == (LANDING_FACT_HIGH | LANDING_FACT_AT_SEARCH));
+    known.lidar_m = 2.05;
+    CHECK((facts_at(t) & heights) == LANDING_FACT_HIGH);
     known.lidar_us = 0U;
-    CHECK((facts_at(t) & (LANDING_FACT_LOW | LANDING_FACT_HIGH)) == 0U);
+    CHECK((facts_at(t) & heights) == 0U);
+}
+
+// Whether it is committed after it was not low at `from_us`, and at this height from then on.
+static bool commits(uint64_t from_us, double height_m, uint64_t for_us)
+{
+    bool committed = false;
+
+    landing.committed = false;
+    known.lidar_m = known.pad.down_m = 1.0;
+    (void)facts_at(from_us);
+    known.lidar_m = known.pad.down_m = height_m;
+    for (uint64_t us = 0U; us <= for_us; us += 10000U) {
+        known.pad_us = known.level_us = known.agreed_us = from_us + us;
+        known.lidar_us = known.attitude_us = from_us + us;
+        committed = (facts_at(from_us + us) & LANDING_FACT_COMMITTED) != 0U;
+    }
+    return committed;
+}
+
+static void test_not_committed(void)
+{
+    const uint64_t t = 100U * (uint64_t)SECOND;
+
+    test_case("not before it has been low for some time");
+    all_well(t);
+    landing_init(&landing, t);
+    landing.phase = LANDING_PHASE_LAND;
+    CHECK(!commits(t, 0.3, COMMIT_AFTER_US - 10000U));
+    CHECK(commits(t, 0.3, COMMIT_AFTER_US));
+    test_case("a height that is not low begins the time anew");
+    CHECK(!commits(t, 0.3, COMMIT_AFTER_US - 10000U));
+    CHECK(!commits(t + COMMIT_AFTER_US, 0.3, COMMIT_AFTER_US - 10000U));
+    test_case("one reading of the LiDAR, for as long as it counts, is not enough");
+    all_well(t);
+    landing.committed = false;
+    known.pad_us = known.level_us = 0U;
+    (void)facts_at(t);
+    known.lidar_m = 0.3;
+    for (uint64_t us = 0U; us <= SECOND; us += 5000U) {
+        known.lidar_us = us <= 60000U ? t + us : known.lidar_us;
+        CHECK((facts_at(t + us) & LANDING_FACT_COMMITTED) == 0U);
+    }
+    test_case("nor is a height that the LiDAR contradicts");
+    all_well(t);
+    known.pad.down_m = 0.3;
+    for (uint64_t us = 10000U; us <= SECOND; us += 10000U) {
+        known.pad_us = known.level_us = known.lidar_us = known.attitude_us = t + us;
+        CHECK((facts_at(t + us) & LANDING_FACT_COMMITTED) == 0U);
+    }
+    test_case("at the height for aligning it can turn back, whatever TD_COMMIT_M says");
+    all_well(t);
+    parameters.commit_height_m = 0.8F;
+    parameters.align_height_m = 0.6F;
+    CHECK(!commits(t, 0.55, COMMIT_AFTER_US));
+    CHECK(commits(t, 0.45, COMMIT_AFTER_US));
 }
 
 static void test_committed(void)
@@ -184,11 +250,11 @@ static void test_committed(void)
     test_case("committed low down in LAND, and from then on");
     all_well(t);
     landing_init(&landing, t);
-    known.pad.down_m = 0.3;
-    CHECK((facts_at(t) & LANDING_FACT_COMMITTED) == 0U);
+    CHECK(!commits(t, 0.3, COMMIT_AFTER_US));
     landing.phase = LANDING_PHASE_LAND;
-    CHECK((facts_at(t) & LANDING_FACT_COMMITTED) != 0U);
-    known.pad_us = known.lidar_us = 0U;
+    CHECK(!commits(t, 0.5, COMMIT_AFTER_US));
+    CHECK(commits(t, 0.3, COMMIT_AFTER_US));
+    known.pad_us = known.level_us = known.lidar_us = 0U;
     CHECK((facts_at(t) & LANDING_FACT_COMMITTED) != 0U);
     CHECK(landing_step(&landing, LANDING_FACT_ARMED | LANDING_FACT_ON_GROUND, t) != NULL);
     CHECK(landing.phase == LANDING_PHASE_TOUCHDOWN && (facts_at(t) & LANDING_FACT_COMMITTED) != 0U);
@@ -205,7 +271,7 @@ static void test_steps(void)
         {LANDING_FACT_START, LANDING_PHASE_ENGAGE},
         {LANDING_FACT_IN_MODE, LANDING_PHASE_SEARCH},
         {LANDING_FACT_PAD, LANDING_PHASE_CENTRE},
-        {LANDING_FACT_PAD | LANDING_FACT_CENTRED, LANDING_PHASE_DESCEND},
+        {LANDING_FACT_PAD | LANDING_FACT_CENTRED | LANDING_FACT_AT_SEARCH, LANDING_PHASE_DESCEND},
         {LANDING_FACT_PAD | LANDING_FACT_CENTRED | LANDING_FACT_LOW, LANDING_PHASE_ALIGN},
         {LANDING_FACT_PAD_LOST, LANDING_PHASE_WAIT},
         {LANDING_FACT_TIME_OUT, LANDING_PHASE_CLIMB},
@@ -249,6 +315,7 @@ void test_landing(void)
     test_asked_at_once();
     test_lidar_contradicts();
     test_settling();
+    test_not_committed();
     test_committed();
     test_steps();
 }

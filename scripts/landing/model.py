@@ -162,8 +162,9 @@ def _mistakes(landing: Landing) -> Iterator[str]:
     for phase in landing.phases:
         if phase.mode not in MODES or phase.steer not in STEERS or phase.limit_s < 0:
             yield f"{phase.name} has a mode, a steer or a limit_s that there is not"
-        if (phase.steer != "none") != (phase.mode == "steer"):
-            yield f"{phase.name} sends velocities in a mode that takes none, or the other way round"
+        takes = {"steer": STEERS[1:], "none": ("none",)}.get(phase.mode, ("none", "stop"))
+        if phase.steer in STEERS and phase.steer not in takes:
+            yield f"{phase.name} sends velocities that its mode does not take, or none in a mode that needs them"
     for rule in landing.rules:
         unknown = ({*rule.sources, rule.to} - phases) | ({*rule.when, *rule.unless} - facts)
         if unknown:

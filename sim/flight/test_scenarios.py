@@ -106,6 +106,17 @@ def test_normal_landing_to_motors_off(profile: str, board: Board) -> None:
     assert_lets_go(flight)
 
 
+@pytest.mark.parametrize("start_m", [0.9, 2.6])
+def test_phase_1_is_at_the_search_height_wherever_it_starts(start_m: float, board: Board) -> None:
+    """With the pad in sight from the beginning."""
+    flight = hover(board, height_m=start_m, north_m=-0.2, east_m=0.1)
+    to_phase(flight, "CENTRE")
+    assert abs(flight.vehicle.height_m - start_m) < 0.1
+    flight.run_to("pad below", 30)
+    assert 1.55 < flight.vehicle.height_m < 2.05
+    flight.run_to("down, motors off", 60)
+
+
 def test_landing_in_gusts(board: Board) -> None:
     flight = hover(board, ARDUPILOT, heading_rad=-2.0)
     random.seed(7)
@@ -163,6 +174,48 @@ def test_abort(phase: str, by: str, board: Board) -> None:
     flight.run_to("handed back to the autopilot", 2)
     assert flight.autopilot.mode == "hold"
     assert_lets_go(flight)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("phase", ["CENTRE", "DESCEND", "ALIGN"])
+def test_abort_with_an_autopilot_that_does_not_hold(phase: str, profile: str, board: Board) -> None:
+    """It is stopped, not left to the last velocity."""
+    flight = hover(board, profile, north_m=-0.8, east_m=0.6)
+    to_phase(flight, phase)
+    flight.run(flight.time_s + 0.8)
+    flight.autopilot.deaf = True
+    vehicle = flight.vehicle
+    north_m, east_m, height_m = vehicle.north_m, vehicle.east_m, vehicle.height_m
+    flight.command(ABORT)
+    flight.run_to("autopilot refuses to hold: take over", 5)
+    assert_lets_go(flight)
+    assert math.hypot(vehicle.north_m - north_m, vehicle.east_m - east_m) < 0.3
+    assert abs(vehicle.height_m - height_m) < 0.2
+
+
+def test_abort_while_the_autopilot_lands_sends_it_no_velocity(board: Board) -> None:
+    """It may not hear them there, and lands on until it holds."""
+    flight = hover(board)
+    to_phase(flight, "LAND")
+    flight.run(flight.time_s + 0.5)
+    flight.autopilot.deaf = True
+    told_s = flight.time_s
+    flight.command(ABORT)
+    flight.run_to("autopilot refuses to hold: take over", 5)
+    assert velocities(flight, told_s) == []
+
+
+def test_autopilot_that_does_not_land_stands_still(board: Board) -> None:
+    flight = hover(board)
+    to_phase(flight, "DESCEND")
+    flight.run(flight.time_s + 0.8)
+    flight.autopilot.deaf = True
+    flight.autopilot.battery_percent = 10
+    flight.run_to("battery low: lands at once", 2)
+    height_m = flight.vehicle.height_m
+    flight.run_to("autopilot refuses a mode", 5)
+    flight.run_to("autopilot refuses to hold: take over", 5)
+    assert abs(flight.vehicle.height_m - height_m) < 0.2
 
 
 def test_abort_on_the_ground_leaves_the_autopilot_alone(board: Board) -> None:
