@@ -69,6 +69,12 @@ def _at_once(px4: bool) -> bytes:
     return _started(px4) + _command(ABORT) + bytes([WAIT, 10])
 
 
+def _while_it_waits(px4: bool) -> bytes:
+    """An abort when LANDING_TARGET is about to go out, and all else waits: once a demand that did not know of it."""
+    frames = _fly(px4, True, 24, 1.2, step_ms=16)
+    return bytes([0]) + frames + _command(START) + frames + _command(ABORT) + bytes([WAIT, 16])
+
+
 def _torn(until: int) -> bytes:
     """A pad in the ring, read while the hardware writes up to stage `until` at the copy's end."""
     head = [0, 0, 0, 0, 0, 0, 0, 0, 1]  # options, attitude, flags, area, altitude, age, dropped, one piece
@@ -79,7 +85,7 @@ def _torn(until: int) -> bytes:
 def seeds(target: str) -> list[bytes]:
     """The inputs for a target; none for those that need none."""
     if target == "loop":
-        ways = (_landing, _search, _battery, _aside, _at_once)
+        ways = (_landing, _search, _battery, _aside, _at_once, _while_it_waits)
         return [way(px4) for way in ways for px4 in (False, True)]
     if target == "record":
         return [_torn(until) for until in range(1, 5)]

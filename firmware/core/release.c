@@ -7,8 +7,10 @@
 #define KEEP_FREE_BEFORE_US 1900U
 // A frame that does not come keeps nothing waiting.
 #define KEEP_FREE_AFTER_US 500U
-// At least 10 frames a second, or there is no next one to wait for.
+// At least 10 frames a second, or there is no next one to wait for. More than 125, and little time would be left for all
+// that has to wait.
 #define PERIOD_MAX_US 100000U
+#define PERIOD_MIN_US 8000U
 
 uint64_t release_of(const struct landing_result_header *header)
 {
@@ -19,7 +21,9 @@ void release_note(struct release *release, uint64_t due_us)
 {
     const uint64_t period_us = due_us - release->last_us;
 
-    release->period_us = release->last_us != 0U && period_us <= PERIOD_MAX_US ? period_us : 0U;
+    const bool regular = release->last_us != 0U && period_us >= PERIOD_MIN_US && period_us <= PERIOD_MAX_US;
+
+    release->period_us = regular ? period_us : 0U;
     release->last_us = due_us;
 }
 

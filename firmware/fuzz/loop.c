@@ -132,9 +132,17 @@ static void tick(void)
     const uint32_t asked = app.flight.known.asked;
     const uint32_t before = sent.count[APP_LINK_AUTOPILOT] + sent.count[APP_LINK_GROUND];
     const struct autopilot *autopilot = &app.flight.autopilot;
+    // LANDING_TARGET is about to go out: for 2 ms nothing else does, and nothing is decided.
+    const bool waits = release_is_near(&app.release, now_us);
+    const enum landing_phase phase = app.flight.landing.phase;
 
     sent.now_us = now_us;
     app_tick(&app, now_us, lidar_there ? &lidar : NULL);
+    if (waits) {
+        DEMAND(sent.count[APP_LINK_AUTOPILOT] + sent.count[APP_LINK_GROUND] == before);
+        DEMAND(app.flight.landing.phase == phase && app.flight.known.asked == asked);
+        return;
+    }
     DEMAND(app.flight.landing.phase < LANDING_PHASES);
     const enum landing_mode mode = landing_phase_table[app.flight.landing.phase].mode;
     DEMAND(sent.count[APP_LINK_AUTOPILOT] + sent.count[APP_LINK_GROUND] - before <= TICK_MESSAGES_MAX);

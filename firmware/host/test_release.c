@@ -25,7 +25,13 @@ void test_release(void)
     CHECK(release_is_near(&release, next_us + 499U));
     CHECK(!release_is_near(&release, next_us + 500U));
 
+    test_case("frames that come too fast keep nothing waiting");
+    release_note(&release, next_us + 7999U);
+    CHECK(!release_is_near(&release, next_us + 2U * 7999U));
+    release_note(&release, next_us + 7999U + 8000U);
+    CHECK(release_is_near(&release, next_us + 7999U + 2U * 8000U));
+
     test_case("after a gap there is no next one to wait for");
-    release_note(&release, next_us + 100001U);
-    CHECK(!release_is_near(&release, next_us + 100001U));
+    release_note(&release, next_us + 7999U + 8000U + 100001U);
+    CHECK(!release_is_near(&release, next_us + 7999U + 8000U + 2U * 100001U));
 }
