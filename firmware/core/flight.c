@@ -147,6 +147,22 @@ static void send_velocity(struct flight *flight, struct links *links, uint64_t n
     flight->next_velocity_us = now_us + links->rates[APP_LINK_AUTOPILOT]->velocity_period_us;
 }
 
+// Until it is asked to leave the mode in which it is steered it stands still: PX4 takes the end of setpoints for a
+// failure, and ArduPilot flies on as it was told last.
+static void stand_until_asked(struct flight *flight, struct links *links, uint64_t now_us)
+{
+    const struct mavlink_out_velocity stop = {.forward_m_s = 0.0};
+    uint8_t bytes[MAVLINK_OUT_MAX_BYTES];
+
+    if (landing_phase_table[flight->landing.phase].steer != LANDING_STEER_NONE ||
+        !autopilot_waits_steered(&flight->autopilot) || now_us < flight->next_velocity_us) {
+        return;
+    }
+    links_send(links, APP_LINK_AUTOPILOT, bytes,
+               mavlink_out_velocity(&links->out[APP_LINK_AUTOPILOT], (uint32_t)(now_us / US_PER_MS), &stop, bytes));
+    flight->next_velocity_us = now_us + links->rates[APP_LINK_AUTOPILOT]->velocity_period_us;
+}
+
 static void ask_to_disarm(struct flight *flight, struct links *links, uint64_t now_us)
 {
     const struct autopilot_command command = {.command = (uint16_t)MAV_CMD_COMPONENT_ARM_DISARM};
@@ -203,6 +219,7 @@ void flight_tick(struct flight *flight, struct links *links, const struct attitu
     if (autopilot_mode_request(&flight->autopilot, now_us, &command)) {
         send_command(links, &command, (uint8_t)(flight->autopilot.requests - 1U));
     }
+    stand_until_asked(flight, links, now_us);
     if (autopilot_stream_request(&flight->autopilot, now_us, &command)) {
         send_command(links, &command, 0U);
     }

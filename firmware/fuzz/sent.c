@@ -80,7 +80,8 @@ static void check_parameter(const struct frame *frame)
     DEMAND(frame_float(frame, 0U) >= limits[index].least && frame_float(frame, 0U) <= limits[index].most);
 }
 
-// Velocities go out in phases that steer alone, while the autopilot is heard, armed and no one else's.
+// Velocities go out in phases that steer, and zero until the autopilot is asked to leave the steering mode; while it is
+// heard, armed and no one else's.
 static void check_velocity(const struct sent *sent, const struct frame *frame)
 {
     const struct flight *flight = sent->flight;
@@ -92,7 +93,8 @@ static void check_velocity(const struct sent *sent, const struct frame *frame)
     const float yaw = frame_float(frame, 44U);
     const float most = steer == LANDING_STEER_SEARCH ? SEARCH_M_S : parameters->speed_m_s;
 
-    DEMAND(steer != LANDING_STEER_NONE);
+    DEMAND(steer != LANDING_STEER_NONE || autopilot_waits_steered(&flight->autopilot));
+    DEMAND(steer != LANDING_STEER_NONE || (forward == 0.0F && right == 0.0F && down == 0.0F && yaw == 0.0F));
     DEMAND(autopilot_is_heard(&flight->autopilot, sent->now_us) && flight->autopilot.armed);
     DEMAND(!flight->autopilot.mode_taken);
     DEMAND(frame_u16(frame, 48U) == VELOCITY_AND_YAW_RATE && frame->payload[52] == (uint8_t)MAV_FRAME_BODY_NED);

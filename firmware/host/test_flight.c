@@ -291,6 +291,28 @@ static void test_abort(void)
     CHECK(flight.landing.phase == LANDING_PHASE_STANDBY);
 }
 
+static void test_abort_without_word_of_the_mode(void)
+{
+    const uint64_t least_us = 400000U;
+    float mode;
+
+    test_case("until a HEARTBEAT says that no one took over it stands still, then hold is asked for and no velocity comes");
+    engage();
+    fly(500000U, GUIDED, 3.0, 1.8);
+    now_us += 200000U;
+    ask((uint16_t)MAV_CMD_DO_GO_AROUND);
+    wire_clear();
+    for (const uint64_t end_us = now_us + least_us; now_us < end_us; now_us += TICK_US) {
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+        CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) == 0.0F);
+    }
+    CHECK(flight.landing.phase == LANDING_PHASE_GIVE_UP && velocities() >= 10);
+    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 0);
+    wire_clear();
+    fly(TICK_US, GUIDED, 3.0, 1.8);
+    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 1 && mode == 17.0F && velocities() == 0);
+}
+
 static void test_down(void)
 {
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
@@ -330,5 +352,6 @@ void test_flight(void)
     test_streams();
     test_engage();
     test_abort();
+    test_abort_without_word_of_the_mode();
     test_down();
 }

@@ -33,10 +33,10 @@ SAID_S = 0.25
 elf = pytest.mark.elf
 
 
-def hover(board: Board, profile: str = ARDUPILOT, **where: float) -> Flight:
+def hover(board: Board, profile: str = ARDUPILOT, slow_heartbeat: bool = False, **where: float) -> Flight:
     """A flight that hovers near the pad, powered up 2.5 s ago."""
     vehicle = Vehicle(**({"north_m": -0.4, "east_m": 0.3, "height_m": 1.6} | where))
-    flight = Flight(Autopilot(profile, vehicle), board)
+    flight = Flight(Autopilot(profile, vehicle, slow_heartbeat=slow_heartbeat), board)
     flight.run(2.5)
     return flight
 
@@ -106,6 +106,24 @@ def test_normal_landing_to_motors_off(profile: str, board: Board) -> None:
     assert_lets_go(flight)
 
 
+@pytest.mark.parametrize("profile", PROFILES)
+def test_landing_with_a_heartbeat_once_a_second(profile: str, board: Board) -> None:
+    """It stands still while it waits for the word of a mode; a PX4 without setpoints would fall out of OFFBOARD."""
+    flight = hover(board, profile, slow_heartbeat=True)
+    flight.switch(True)
+    flight.run_to("down, motors off", 90)
+    assert not any("WAIT" in phase or "GIVE_UP" in phase for _, phase in flight.phases)
+    modes = [s for s in flight.sent[AUTOPILOT] if getattr(s.message, "command", 0) == mavlink.MAV_CMD_DO_SET_MODE]
+    assert len(modes) == 2
+    beats = [
+        s
+        for s in flight.sent[AUTOPILOT]
+        if getattr(s.message, "command", 0) == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL
+        and s.message.param1 == mavlink.MAVLINK_MSG_ID_HEARTBEAT
+    ]
+    assert len(beats) == 5
+
+
 def test_landing_in_gusts(board: Board) -> None:
     flight = hover(board, ARDUPILOT, heading_rad=-2.0)
     random.seed(7)
@@ -139,12 +157,33 @@ def test_pilot_takes_over(phase: str, profile: str, board: Board) -> None:
     flight = hover(board, profile)
     to_phase(flight, phase)
     flight.run(flight.time_s + 0.5)
-    flight.board.say(AUTOPILOT, flight.autopilot.set_mode("rtl"))
-    told_s = flight.time_s
-    flight.run_to("mode taken by pilot or failsafe", SAID_S)
+    flight.autopilot.mode = "rtl"
+    flight.run_to("mode taken by pilot or failsafe", 0.2 + SAID_S)
     assert_lets_go(flight)
-    assert commands_after(flight, told_s + 0.02) == []
+    assert flight.autopilot.told == "rtl"
+    assert commands_after(flight, flight.autopilot.told_us / 1e6 + 0.02) == []
     assert flight.autopilot.mode == "rtl"
+
+
+@pytest.mark.parametrize("slow", [False, True])
+@pytest.mark.parametrize("profile", PROFILES)
+def test_pilot_takes_over_unheard_of_just_before_the_pad_is_lost(profile: str, slow: bool, board: Board) -> None:
+    """His mode is never asked away, whatever is wanted between two HEARTBEATs."""
+    flight = hover(board, profile, slow)
+    to_phase(flight, "LAND")
+    assert flight.run(flight.time_s + 2.5, lambda flying: flying.autopilot.told == "land")
+    told_s = flight.time_s
+    flight.run(told_s + 0.05)
+    flight.pad_hidden = True
+    # He does so after the last HEARTBEAT before 0.5 s have passed without a pad.
+    flight.run(told_s + (0.055 if slow else 0.405))
+    flight.autopilot.mode = "loiter"
+    since = flight.time_s
+    flight.run_to("pad lost", 0.5 + SAID_S)
+    flight.run_to("mode taken by pilot or failsafe", 1.1)
+    assert_lets_go(flight)
+    assert [row for row in commands_after(flight, since) if "COMMAND_LONG" in row] == []
+    assert flight.autopilot.mode == "loiter"
 
 
 @pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
