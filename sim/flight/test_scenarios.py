@@ -403,6 +403,32 @@ def test_hold_and_go_on(board: Board) -> None:
     flight.run_to("down, motors off", 60)
 
 
+def test_hold_as_soon_as_it_starts_and_a_start_that_is_sent_again(board: Board) -> None:
+    flight = hover(board)
+    flight.command(LAND)
+    flight.run_to("start", SAID_S)
+    flight.command(LAND)
+    flight.command(PAUSE_CONTINUE, 0)
+    flight.run_to("held by the ground", SAID_S)
+    since = flight.time_s
+    flight.run(since + 1)
+    assert flight.autopilot.mode == "steer"
+    assert all(v.vx == v.vy == v.vz == v.yaw_rate == 0.0 for v in velocities(flight, 0))
+    flight.command(LAND)
+    flight.command(PAUSE_CONTINUE, 1)
+    flight.run_to("goes on", SAID_S)
+    flight.run_to("pad seen", 1)
+    answers = [sent.message for sent in flight.sent[GROUND] if sent.message.get_type() == "COMMAND_ACK"]
+    assert [(answer.command, answer.result) for answer in answers] == [
+        (LAND, mavlink.MAV_RESULT_ACCEPTED),
+        (LAND, mavlink.MAV_RESULT_ACCEPTED),
+        (PAUSE_CONTINUE, mavlink.MAV_RESULT_ACCEPTED),
+        (LAND, mavlink.MAV_RESULT_TEMPORARILY_REJECTED),
+        (PAUSE_CONTINUE, mavlink.MAV_RESULT_ACCEPTED),
+    ]
+    assert [text for _, text in flight.texts].count("Touchdown: start") == 1
+
+
 @pytest.mark.parametrize(
     ("change", "text"),
     [
