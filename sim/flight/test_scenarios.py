@@ -33,11 +33,13 @@ SAID_S = 0.25
 elf = pytest.mark.elf
 
 
-def hover(board: Board, profile: str = ARDUPILOT, slow_heartbeat: bool = False, **where: float) -> Flight:
-    """A flight that hovers near the pad, powered up 2.5 s ago."""
+def hover(
+    board: Board, profile: str = ARDUPILOT, slow_heartbeat: bool = False, powered_s: float = 2.5, **where: float
+) -> Flight:
+    """A flight that hovers near the pad, powered up some time ago."""
     vehicle = Vehicle(**({"north_m": -0.4, "east_m": 0.3, "height_m": 1.6} | where))
     flight = Flight(Autopilot(profile, vehicle, slow_heartbeat=slow_heartbeat), board)
-    flight.run(2.5)
+    flight.run(powered_s)
     return flight
 
 
@@ -49,6 +51,37 @@ def to_phase(flight: Flight, phase: str) -> None:
         if name == phase:
             return
     raise AssertionError(f"no phase {phase}")
+
+
+def to_search(flight: Flight) -> None:
+    """Look for a pad that is not seen."""
+    flight.pad_hidden = True
+    flight.switch(True)
+    flight.run_to("steering")
+
+
+def to_hold(flight: Flight) -> None:
+    """Be held on the way to the pad."""
+    to_phase(flight, "CENTRE")
+    flight.command(PAUSE_CONTINUE, 0)
+    flight.run_to("held by the ground", SAID_S)
+
+
+def to_wait(flight: Flight) -> None:
+    """Lose the pad."""
+    to_phase(flight, "CENTRE")
+    flight.pad_hidden = True
+    flight.run_to("pad lost", 1)
+
+
+def to_climb(flight: Flight) -> None:
+    """Lose the pad for so long that it climbs."""
+    to_wait(flight)
+    flight.run_to("pad still lost", 5)
+
+
+ASIDE = {"SEARCH": to_search, "HOLD": to_hold, "WAIT": to_wait, "CLIMB": to_climb}
+"""Phases of a landing that is not normal, and how to get there."""
 
 
 def commands_after(flight: Flight, time_s: float) -> list[str]:
@@ -68,6 +101,20 @@ def assert_lets_go(flight: Flight, seconds: float = 3.0) -> None:
     since = flight.time_s
     flight.run(since + seconds)
     assert commands_after(flight, since) == []
+
+
+def assert_aborts(flight: Flight, by: str, seconds: float = 3.0) -> None:
+    """Told to, it hands the vehicle back, and for so long commands nothing."""
+    told_s = flight.time_s
+    if by == "switch":
+        flight.switch(False)
+    else:
+        flight.command(ABORT)
+    flight.run_to("aborted", 0.3 + SAID_S)
+    assert [v for v in velocities(flight, told_s + 0.3) if v.vx or v.vy or v.vz or v.yaw_rate] == []
+    flight.run_to("handed back to the autopilot", 2)
+    assert flight.autopilot.mode == "hold"
+    assert_lets_go(flight, seconds)
 
 
 def velocities(flight: Flight, time_s: float) -> list[mavlink.MAVLink_message]:
@@ -192,26 +239,35 @@ def test_abort(phase: str, by: str, board: Board) -> None:
     """The autopilot's own hold is asked for, then nothing any more."""
     flight = hover(board)
     to_phase(flight, phase)
-    told_s = flight.time_s
+    assert_aborts(flight, by)
+
+
+@pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
+@pytest.mark.parametrize("phase", ASIDE)
+def test_abort_aside_from_the_normal_landing(phase: str, by: str, board: Board) -> None:
+    # So low that it still climbs when it is told.
+    flight = hover(board, powered_s=1.0, height_m=1.0)
+    ASIDE[phase](flight)
+    assert flight.phases[-1][1] == phase
+    assert_aborts(flight, by, 1.5)
+
+
+@pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
+def test_abort_on_the_ground_leaves_the_autopilot_alone(by: str, board: Board) -> None:
+    flight = hover(board, powered_s=1.0, north_m=-0.1, east_m=0.1, height_m=0.5)
+    flight.autopilot.sticky = True
+    to_phase(flight, "CENTRE")
+    # The shortest way down.
+    flight.autopilot.battery_percent = 10
+    flight.autopilot.next_us[mavlink.MAVLINK_MSG_ID_SYS_STATUS] = 0
+    flight.run_to("battery low: lands at once", 2)
+    flight.run_to("touched down", 10)
     if by == "switch":
         flight.switch(False)
     else:
         flight.command(ABORT)
-    flight.run_to("aborted", 0.3 + SAID_S)
-    assert [v for v in velocities(flight, told_s + 0.3) if v.vx or v.vy or v.vz or v.yaw_rate] == []
-    flight.run_to("handed back to the autopilot", 2)
-    assert flight.autopilot.mode == "hold"
-    assert_lets_go(flight)
-
-
-def test_abort_on_the_ground_leaves_the_autopilot_alone(board: Board) -> None:
-    flight = hover(board)
-    flight.autopilot.sticky = True
-    to_phase(flight, "LAND")
-    flight.run_to("touched down")
-    flight.command(ABORT)
-    flight.run_to("aborted on the ground", SAID_S)
-    assert_lets_go(flight)
+    flight.run_to("aborted on the ground", 0.1 + SAID_S)
+    assert_lets_go(flight, 1.5)
     assert flight.autopilot.mode == "land"
 
 
