@@ -35,6 +35,10 @@ static void on_rc(struct flight *flight, const uint16_t *channels_us)
 {
     const uint32_t channel = (uint32_t)flight->parameters.rc_channel;
 
+    if (channel != flight->switch_channel) {
+        flight->switch_channel = channel;
+        flight->switch_known = false;
+    }
     if (channel == 0U || channel > MAVLINK_IN_RC_CHANNELS) {
         return;
     }

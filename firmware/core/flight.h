@@ -31,6 +31,7 @@ struct flight {
     struct landing landing;
     struct parameters parameters;
     struct landing_known known;
+    uint32_t switch_channel; // of which switch_known and switch_on are; 0 = none
     bool switch_known;
     bool switch_on;
     uint64_t next_velocity_us;

@@ -21,6 +21,33 @@ static bool commands(const struct flight *flight)
     return landing_phase_table[phase_of(flight)].mode != LANDING_MODE_NONE;
 }
 
+// True while it can be told to stand still, or does.
+static bool can_hold(const struct flight *flight)
+{
+    const uint32_t present = flight->landing.committed ? LANDING_FACT_COMMITTED : 0U;
+
+    for (size_t i = 0; i < LANDING_RULES; i++) {
+        const struct landing_rule *rule = &landing_rules[i];
+
+        if ((rule->from >> (uint32_t)phase_of(flight) & 1U) != 0U && (rule->unless & present) == 0U &&
+            (rule->when & (LANDING_FACT_PAUSE | LANDING_FACT_GO_ON)) != 0U) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// True when a landing goes on that need not be started: told to start, it was told so twice.
+static bool lands(const struct flight *flight)
+{
+    return commands(flight) && phase_of(flight) != LANDING_PHASE_HOLD && phase_of(flight) != LANDING_PHASE_GIVE_UP;
+}
+
+static uint8_t taken_if(bool taken)
+{
+    return (uint8_t)(taken ? MAV_RESULT_ACCEPTED : MAV_RESULT_TEMPORARILY_REJECTED);
+}
+
 // What a command asks for, or 0; `result` says why.
 static uint32_t fact_of(const struct flight *flight, const struct mavlink_in_command *command, uint8_t *result)
 {
@@ -28,19 +55,20 @@ static uint32_t fact_of(const struct flight *flight, const struct mavlink_in_com
     switch (command->command) {
     case MAV_CMD_NAV_LAND:
         // A refusal for other reasons is said in words, by the rule that refuses.
-        *result = (uint8_t)(commands(flight) ? MAV_RESULT_TEMPORARILY_REJECTED : MAV_RESULT_ACCEPTED);
+        *result = taken_if(!commands(flight) || lands(flight));
         return commands(flight) ? 0U : LANDING_FACT_START;
     case MAV_CMD_DO_GO_AROUND:
         return LANDING_FACT_ABORT;
     case MAV_CMD_DO_PAUSE_CONTINUE:
-        if (command->parameters[0] == 0.0F) {
-            return LANDING_FACT_PAUSE;
+        if (command->parameters[0] != 0.0F && command->parameters[0] != 1.0F) {
+            *result = (uint8_t)MAV_RESULT_DENIED;
+            return 0U;
         }
-        if (command->parameters[0] == 1.0F) {
-            return LANDING_FACT_GO_ON;
+        *result = taken_if(can_hold(flight));
+        if (!can_hold(flight)) {
+            return 0U;
         }
-        *result = (uint8_t)MAV_RESULT_DENIED;
-        return 0U;
+        return command->parameters[0] == 0.0F ? LANDING_FACT_PAUSE : LANDING_FACT_GO_ON;
     case MAV_CMD_USER_1:
         return 0U;
     default:

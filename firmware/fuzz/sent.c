@@ -80,7 +80,8 @@ static void check_parameter(const struct frame *frame)
     DEMAND(frame_float(frame, 0U) >= limits[index].least && frame_float(frame, 0U) <= limits[index].most);
 }
 
-// Velocities go out in phases that steer alone, while the autopilot is heard, armed and no one else's.
+// Velocities go out in phases that steer, and zero until the autopilot is asked to leave the steering mode; while it is
+// heard, armed and no one else's.
 static void check_velocity(const struct sent *sent, const struct frame *frame)
 {
     const struct flight *flight = sent->flight;

@@ -45,7 +45,7 @@ const struct landing_rule landing_rules[LANDING_RULES] = {
     {0x00000e06u, 0x00000800u, 0x00000000u, LANDING_PHASE_GIVE_UP, 4u, "battery low and no pad in sight"},
     {0x00000e3eu, 0x00001000u, 0x00000000u, LANDING_PHASE_GIVE_UP, 4u, "ground station lost"},
     {0x00000002u, 0x00000080u, 0x00000000u, LANDING_PHASE_SEARCH, 6u, "steering"},
-    {0x00000c3cu, 0x00000008u, 0x00000000u, LANDING_PHASE_HOLD, 6u, "held by the ground"},
+    {0x00000c3eu, 0x00000008u, 0x00000000u, LANDING_PHASE_HOLD, 6u, "held by the ground"},
     {0x00000040u, 0x00000008u, 0x02000000u, LANDING_PHASE_HOLD, 6u, "held by the ground"},
     {0x00000200u, 0x00000010u, 0x00000000u, LANDING_PHASE_SEARCH, 6u, "goes on"},
     {0x00000200u, 0x00000001u, 0x00000000u, LANDING_PHASE_GIVE_UP, 4u, "held too long"},

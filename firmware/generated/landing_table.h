@@ -51,7 +51,7 @@ enum landing_steer {
 #define LANDING_FACT_ARMED 0x00000040u // its newest HEARTBEAT says so
 #define LANDING_FACT_IN_MODE 0x00000080u // the autopilot is in the mode that the phase wants
 #define LANDING_FACT_PILOT 0x00000100u // the autopilot went into a mode that was not asked for
-#define LANDING_FACT_REFUSED 0x00000200u // it rejected the mode, or did not take it after 5 requests
+#define LANDING_FACT_REFUSED 0x00000200u // it rejected the mode, did not take it after 5 requests, or accepted it and has not shown it for 2.5 s
 #define LANDING_FACT_ON_GROUND 0x00000400u // EXTENDED_SYS_STATE says landed
 #define LANDING_FACT_BATTERY_LOW 0x00000800u // SYS_STATUS says less than TD_BATT_MIN percent
 #define LANDING_FACT_GROUND_LOST 0x00001000u // TD_GCS_NEEDED is 1, and no HEARTBEAT of a ground station for 5 s

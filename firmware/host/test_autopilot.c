@@ -21,11 +21,11 @@ static void heartbeat(uint8_t kind, uint32_t custom_mode, uint8_t base_mode, uin
     autopilot_on_message(&autopilot, &message, now_us);
 }
 
-static void acknowledge(uint16_t of, uint8_t result)
+static void acknowledge(uint16_t of, uint8_t result, uint64_t now_us)
 {
     const struct mavlink_in_message message = {.kind = MAVLINK_IN_ACK, .as.ack = {.command = of, .result = result}};
 
-    autopilot_on_message(&autopilot, &message, 0U);
+    autopilot_on_message(&autopilot, &message, now_us);
 }
 
 static void start(uint8_t kind, uint32_t custom_mode)
@@ -70,7 +70,9 @@ static void test_modes(void)
         autopilot_want(&autopilot, rows[i].mode, 2U * SECOND);
         CHECK(!autopilot_is_in(&autopilot, rows[i].mode));
         // Setpoints come first.
+        heartbeat(rows[i].kind, 1U, 0U, 2U * SECOND);
         CHECK(!autopilot_mode_request(&autopilot, 2U * SECOND, &command));
+        heartbeat(rows[i].kind, 1U, 0U, 3U * SECOND);
         CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
         CHECK(command.command == MAV_CMD_DO_SET_MODE && command.parameters[0] == 1.0F);
         CHECK(command.parameters[1] == rows[i].main && command.parameters[2] == rows[i].sub);
@@ -103,17 +105,101 @@ static void test_pilot(void)
     test_case("a mode that was asked for before may come late");
     start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
     autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+    autopilot_want(&autopilot, LANDING_MODE_HOLD, 3U * SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 4U * SECOND);
+    CHECK(!autopilot.mode_taken);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 17U, 0U, 5U * SECOND);
+    CHECK(!autopilot.mode_taken);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 6U * SECOND);
+    CHECK(autopilot.mode_taken);
+    test_case("once it has come, the mode before it is someone's");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+    autopilot_want(&autopilot, LANDING_MODE_HOLD, 3U * SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 4U * SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, 5U * SECOND);
+    CHECK(autopilot.mode_taken);
+    test_case("a mode that was wanted and never asked for is someone's");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
     autopilot_want(&autopilot, LANDING_MODE_HOLD, SECOND);
     heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 2U * SECOND);
-    CHECK(!autopilot.mode_taken);
-    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 17U, 0U, 3U * SECOND);
-    CHECK(!autopilot.mode_taken);
-    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 4U, 0U, 4U * SECOND);
     CHECK(autopilot.mode_taken);
     test_case("nothing wanted, nothing taken");
     autopilot_want(&autopilot, LANDING_MODE_NONE, 5U * SECOND);
     heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 6U, 0U, 6U * SECOND);
     CHECK(!autopilot.mode_taken);
+}
+
+static void test_silent_takeover(void)
+{
+    test_case("a pilot who took over after the newest HEARTBEAT is not overridden");
+    start(MAV_AUTOPILOT_PX4, 0x09040000U);
+    autopilot_want(&autopilot, LANDING_MODE_LAND, SECOND);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND + 500000U);
+    CHECK(!autopilot_mode_request(&autopilot, SECOND + 500000U, &command));
+    CHECK(!autopilot_mode_request(&autopilot, 2U * SECOND - 1U, &command));
+    heartbeat(MAV_AUTOPILOT_PX4, 0x03040000U, 0U, 2U * SECOND);
+    CHECK(autopilot.mode_taken);
+    CHECK(!autopilot_mode_request(&autopilot, 2U * SECOND, &command));
+    test_case("the word of a HEARTBEAT that no one did is waited for, for so long");
+    start(MAV_AUTOPILOT_PX4, 0x09040000U);
+    autopilot_want(&autopilot, LANDING_MODE_LAND, SECOND);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND + 500000U);
+    heartbeat(MAV_AUTOPILOT_PX4, 0x09040000U, 0U, 2U * SECOND);
+    CHECK(!autopilot.mode_taken && autopilot_mode_request(&autopilot, 2U * SECOND + 100000U, &command));
+    test_case("the next request waits as the first did");
+    CHECK(!autopilot_mode_request(&autopilot, 2U * SECOND + 600000U, &command));
+    heartbeat(MAV_AUTOPILOT_PX4, 0x09040000U, 0U, 3U * SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+    test_case("no longer than is safe");
+    start(MAV_AUTOPILOT_PX4, 0x09040000U);
+    autopilot_want(&autopilot, LANDING_MODE_LAND, SECOND);
+    autopilot_want(&autopilot, LANDING_MODE_HOLD, SECOND + 500000U);
+    CHECK(!autopilot_mode_request(&autopilot, SECOND + 500000U + AUTOPILOT_MODE_WAIT_US - 1U, &command));
+    CHECK(autopilot_mode_request(&autopilot, SECOND + 500000U + AUTOPILOT_MODE_WAIT_US, &command));
+    test_case("it waits for velocities from when it is to leave the steering mode until it is asked to");
+    start(MAV_AUTOPILOT_PX4, 0x00060000U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    autopilot_want(&autopilot, LANDING_MODE_LAND, SECOND + 500000U);
+    heartbeat(MAV_AUTOPILOT_PX4, 0x00060000U, 0U, 2U * SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 2U * SECOND, &command));
+}
+
+static void test_accepted(void)
+{
+    test_case("what is accepted is not asked for again, and is refused when it does not show");
+    start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_ACCEPTED, 3U * SECOND);
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, 5U * SECOND);
+    CHECK(!autopilot_mode_request(&autopilot, 5U * SECOND, &command));
+    CHECK(!autopilot_refuses(&autopilot, 3U * SECOND + AUTOPILOT_SHOWN_AFTER_US - 1U));
+    CHECK(autopilot_refuses(&autopilot, 3U * SECOND + AUTOPILOT_SHOWN_AFTER_US));
+    test_case("the newest answer counts");
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_TEMPORARILY_REJECTED, 5U * SECOND);
+    CHECK(!autopilot_refuses(&autopilot, 9U * SECOND));
+    CHECK(autopilot_mode_request(&autopilot, 5U * SECOND, &command));
+    test_case("a mode that still shows is not the one it is in when another was accepted");
+    start(MAV_AUTOPILOT_PX4, 0x03040000U);
+    autopilot_want(&autopilot, LANDING_MODE_STEER, SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 3U * SECOND, &command));
+    autopilot_want(&autopilot, LANDING_MODE_HOLD, 3U * SECOND);
+    CHECK(!autopilot_is_in(&autopilot, LANDING_MODE_HOLD));
+    heartbeat(MAV_AUTOPILOT_PX4, 0x03040000U, 0U, 4U * SECOND);
+    CHECK(!autopilot_is_in(&autopilot, LANDING_MODE_HOLD) && !autopilot.mode_taken);
+    CHECK(autopilot_mode_request(&autopilot, 4U * SECOND, &command));
+    heartbeat(MAV_AUTOPILOT_PX4, 0x03040000U, 0U, 5U * SECOND);
+    CHECK(autopilot_is_in(&autopilot, LANDING_MODE_HOLD) && !autopilot.mode_taken);
+    test_case("a new landing knows nothing of what the last one asked for");
+    autopilot_want(&autopilot, LANDING_MODE_STEER, 5U * SECOND);
+    CHECK(autopilot_mode_request(&autopilot, 5U * SECOND, &command));
+    autopilot_want(&autopilot, LANDING_MODE_NONE, 5U * SECOND);
+    autopilot_want(&autopilot, LANDING_MODE_HOLD, 5U * SECOND);
+    CHECK(autopilot_is_in(&autopilot, LANDING_MODE_HOLD));
 }
 
 static void test_refusal(void)
@@ -125,6 +211,7 @@ static void test_refusal(void)
     autopilot_want(&autopilot, LANDING_MODE_LAND, now_us);
     for (unsigned i = 0; i < AUTOPILOT_REQUESTS_MAX; i++) {
         now_us += SECOND;
+        heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, now_us);
         CHECK(!autopilot_refuses(&autopilot, now_us));
         CHECK(autopilot_mode_request(&autopilot, now_us, &command));
     }
@@ -135,14 +222,15 @@ static void test_refusal(void)
     test_case("a refusal counts at once, one for the time being does not");
     start(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U);
     autopilot_want(&autopilot, LANDING_MODE_LAND, SECOND);
-    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_DENIED); // of someone else's request
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_DENIED, SECOND); // of someone else's request
     CHECK(!autopilot_refuses(&autopilot, 2U * SECOND));
+    heartbeat(MAV_AUTOPILOT_ARDUPILOTMEGA, 5U, 0U, 2U * SECOND);
     CHECK(autopilot_mode_request(&autopilot, 2U * SECOND, &command));
-    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_TEMPORARILY_REJECTED);
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_TEMPORARILY_REJECTED, 2U * SECOND);
     CHECK(!autopilot_refuses(&autopilot, 2U * SECOND));
-    acknowledge(MAV_CMD_SET_MESSAGE_INTERVAL, MAV_RESULT_DENIED);
+    acknowledge(MAV_CMD_SET_MESSAGE_INTERVAL, MAV_RESULT_DENIED, 2U * SECOND);
     CHECK(!autopilot_refuses(&autopilot, 2U * SECOND));
-    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_DENIED);
+    acknowledge(MAV_CMD_DO_SET_MODE, MAV_RESULT_DENIED, 2U * SECOND);
     CHECK(autopilot_refuses(&autopilot, 2U * SECOND));
     test_case("of an autopilot that is not known nothing is asked");
     start(MAV_AUTOPILOT_GENERIC, 4U);
@@ -166,7 +254,7 @@ static void test_streams(void)
     test_case("nothing is asked of one that is not there");
     autopilot_init(&autopilot, rates_of(RATES_AUTOPILOT, 0U));
     CHECK(!autopilot_stream_request(&autopilot, SECOND, &command));
-    test_case("all four are asked for, once a second each, until they come");
+    test_case("all five are asked for, once a second each, until they come");
     start(MAV_AUTOPILOT_PX4, 0U);
     while (asked < 10U && autopilot_stream_request(&autopilot, SECOND, &command)) {
         CHECK(command.command == MAV_CMD_SET_MESSAGE_INTERVAL && command.parameters[1] >= 20000.0F);
@@ -178,6 +266,8 @@ static void test_streams(void)
     autopilot_on_message(&autopilot, &battery, 2U * SECOND);
     autopilot_on_message(&autopilot, &rc, 2U * SECOND);
     autopilot_on_message(&autopilot, &other, 2U * SECOND);
+    heartbeat(MAV_AUTOPILOT_PX4, 0U, 0U, 2U * SECOND - 200000U);
+    heartbeat(MAV_AUTOPILOT_PX4, 0U, 0U, 2U * SECOND);
     CHECK(autopilot_stream_request(&autopilot, 2U * SECOND, &command));
     CHECK(command.parameters[0] == (float)MAVLINK_MSG_ID_ATTITUDE);
     CHECK(!autopilot_stream_request(&autopilot, 2U * SECOND, &command));
@@ -191,11 +281,43 @@ static void test_streams(void)
     CHECK(command.parameters[0] == (float)MAVLINK_MSG_ID_ATTITUDE);
 }
 
+// How often HEARTBEAT is asked for in ten seconds in which one comes so often.
+static unsigned heartbeat_requests(uint64_t since_us, uint64_t period_us)
+{
+    unsigned asked = 0U;
+
+    for (uint64_t now_us = since_us; now_us < since_us + 10U * SECOND; now_us += 50000U) {
+        if ((now_us - since_us) % period_us == 0U) {
+            heartbeat(MAV_AUTOPILOT_PX4, 0U, 0U, now_us);
+        }
+        while (autopilot_stream_request(&autopilot, now_us, &command)) {
+            asked += command.parameters[0] == (float)MAVLINK_MSG_ID_HEARTBEAT ? 1U : 0U;
+            CHECK(command.parameters[0] != (float)MAVLINK_MSG_ID_HEARTBEAT || command.parameters[1] == 200000.0F);
+        }
+    }
+    return asked;
+}
+
+static void test_heartbeats_asked_for(void)
+{
+    test_case("more HEARTBEATs are asked for a few times, of one that is started again anew, and no more once they come");
+    start(MAV_AUTOPILOT_PX4, 0U);
+    CHECK(heartbeat_requests(SECOND, SECOND) == 5U);
+    CHECK(heartbeat_requests(11U * SECOND, SECOND) == 0U);
+    CHECK(heartbeat_requests(30U * SECOND, SECOND) == 5U);
+    CHECK(heartbeat_requests(40U * SECOND, 200000U) == 0U);
+    CHECK(heartbeat_requests(50U * SECOND, SECOND) == 5U);
+    CHECK(heartbeat_requests(70U * SECOND, 200000U) <= 1U);
+}
+
 void test_autopilot(void)
 {
     test_heard();
     test_modes();
     test_pilot();
+    test_silent_takeover();
+    test_accepted();
     test_refusal();
     test_streams();
+    test_heartbeats_asked_for();
 }

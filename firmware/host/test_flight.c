@@ -10,7 +10,7 @@
 
 #define SECOND 1000000U
 #define TICK_US 10000U
-#define SWITCH 7 // the channel of TD_RC_CHAN, from 0
+#define SWITCH 7U // the channel of TD_RC_CHAN, from 0
 #define GUIDED 4U
 #define LOITER 5U
 #define LAND 9U
@@ -45,22 +45,28 @@ static void heartbeat(uint32_t mode, bool armed)
     of_autopilot(message);
 }
 
-static struct mavlink_in_message rc_message(uint16_t value_us)
+static struct mavlink_in_message rc_message(size_t channel, uint16_t value_us)
 {
     struct mavlink_in_message message = {.kind = MAVLINK_IN_RC};
 
     for (size_t i = 0; i < MAVLINK_IN_RC_CHANNELS; i++) {
-        message.as.rc_us[i] = i == SWITCH ? value_us : 1500U;
+        message.as.rc_us[i] = i == channel ? value_us : 1500U;
     }
     return message;
 }
 
-// What the switch in this place asks for.
-static uint32_t asked_by(uint16_t value_us)
+// What a switch on this channel, in this place, asks for.
+static uint32_t asked_on(size_t channel, uint16_t value_us)
 {
     flight.known.asked = 0U;
-    of_autopilot(rc_message(value_us));
+    of_autopilot(rc_message(channel, value_us));
     return flight.known.asked;
+}
+
+// The same of the usual channel.
+static uint32_t asked_by(uint16_t value_us)
+{
+    return asked_on(SWITCH, value_us);
 }
 
 static void start(void)
@@ -100,10 +106,17 @@ static void test_switch(void)
     CHECK(asked_by(2000U) == 0U);
     test_case("channels count only as the autopilot says them");
     flight.parameters.rc_channel = 8.0F;
-    give(APP_LINK_GROUND, rc_message(2000U), (uint8_t)MAV_COMP_ID_AUTOPILOT1);
-    give(APP_LINK_AUTOPILOT, rc_message(2000U), (uint8_t)MAV_COMP_ID_CAMERA);
+    give(APP_LINK_GROUND, rc_message(SWITCH, 2000U), (uint8_t)MAV_COMP_ID_AUTOPILOT1);
+    give(APP_LINK_AUTOPILOT, rc_message(SWITCH, 2000U), (uint8_t)MAV_COMP_ID_CAMERA);
     CHECK(flight.known.asked == 0U);
-    CHECK(asked_by(2000U) == LANDING_FACT_START);
+    CHECK(asked_by(1000U) == 0U && asked_by(2000U) == LANDING_FACT_START);
+    test_case("what is known of a switch is not known of another channel");
+    CHECK(asked_by(1000U) == LANDING_FACT_ABORT);
+    flight.parameters.rc_channel = 9.0F;
+    CHECK(asked_on(SWITCH + 1U, 2000U) == 0U);
+    CHECK(asked_on(SWITCH + 1U, 1000U) == LANDING_FACT_ABORT && asked_on(SWITCH + 1U, 2000U) == LANDING_FACT_START);
+    flight.parameters.rc_channel = 8.0F;
+    CHECK(asked_by(1000U) == 0U);
 }
 
 static void test_who_is_heard(void)
@@ -452,6 +465,32 @@ static void test_down_and_another_mode(void)
     CHECK(flight.landing.phase == LANDING_PHASE_LANDED);
 }
 
+static void test_abort_without_word_of_the_mode(void)
+{
+    const uint64_t least_us = 400000U;
+    float mode;
+
+    test_case("until a HEARTBEAT says that no one took over it stands still, and goes on to until it holds");
+    engage();
+    fly(500000U, GUIDED, 3.0, 1.8);
+    now_us += 200000U;
+    ask((uint16_t)MAV_CMD_DO_GO_AROUND);
+    wire_clear();
+    for (const uint64_t end_us = now_us + least_us; now_us < end_us; now_us += TICK_US) {
+        flight_tick(&flight, &links, &attitude, &lidar, now_us);
+        CHECK(mavlink_msg_set_position_target_local_ned_get_vx(newest_velocity()) == 0.0F);
+    }
+    CHECK(flight.landing.phase == LANDING_PHASE_GIVE_UP && velocities() >= 10);
+    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 0);
+    wire_clear();
+    fly(TICK_US, GUIDED, 3.0, 1.8);
+    CHECK(commands((uint16_t)MAV_CMD_DO_SET_MODE, &mode) == 1 && mode == (float)BRAKE);
+    fly(SECOND, BRAKE, 3.0, 1.8);
+    wire_clear();
+    fly(SECOND, BRAKE, 3.0, 1.8);
+    CHECK(velocities() == 0);
+}
+
 static void test_down(void)
 {
     struct mavlink_in_message landed = {.kind = MAVLINK_IN_LANDED_STATE};
@@ -501,5 +540,6 @@ void test_flight(void)
     test_gap();
     test_no_attitude();
     test_down_and_another_mode();
+    test_abort_without_word_of_the_mode();
     test_down();
 }

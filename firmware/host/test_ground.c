@@ -46,18 +46,56 @@ static void test_commands(void)
     CHECK(asked == LANDING_FACT_START);
     CHECK(command((uint16_t)MAV_CMD_DO_GO_AROUND, 0.0F, &asked) == (int)MAV_RESULT_ACCEPTED);
     CHECK(asked == LANDING_FACT_ABORT);
-    CHECK(command((uint16_t)MAV_CMD_DO_PAUSE_CONTINUE, 0.0F, &asked) == (int)MAV_RESULT_ACCEPTED);
-    CHECK(asked == LANDING_FACT_PAUSE);
-    CHECK(command((uint16_t)MAV_CMD_DO_PAUSE_CONTINUE, 1.0F, &asked) == (int)MAV_RESULT_ACCEPTED);
-    CHECK(asked == LANDING_FACT_GO_ON);
     CHECK(command((uint16_t)MAV_CMD_DO_PAUSE_CONTINUE, 0.5F, &asked) == (int)MAV_RESULT_DENIED);
     CHECK(asked == 0U);
     CHECK(command((uint16_t)MAV_CMD_COMPONENT_ARM_DISARM, 1.0F, &asked) == (int)MAV_RESULT_UNSUPPORTED);
     CHECK(asked == 0U);
-    test_case("a second start is refused during a landing");
-    flight.landing.phase = LANDING_PHASE_SEARCH;
-    CHECK(command((uint16_t)MAV_CMD_NAV_LAND, 0.0F, &asked) == (int)MAV_RESULT_TEMPORARILY_REJECTED);
-    CHECK(asked == 0U);
+}
+
+static void test_start_again(void)
+{
+    uint32_t asked;
+
+    start();
+    for (unsigned phase = 0U; phase < (unsigned)LANDING_PHASES; phase++) {
+        const bool ends = phase == (unsigned)LANDING_PHASE_HOLD || phase == (unsigned)LANDING_PHASE_GIVE_UP;
+        const bool waits = phase == (unsigned)LANDING_PHASE_STANDBY || phase == (unsigned)LANDING_PHASE_LANDED;
+
+        test_case("a start in %s: during a landing it is the same once more, and starts nothing",
+                  landing_phase_table[phase].name);
+        flight.landing.phase = (enum landing_phase)phase;
+        CHECK(command((uint16_t)MAV_CMD_NAV_LAND, 0.0F, &asked) ==
+              (int)(ends ? MAV_RESULT_TEMPORARILY_REJECTED : MAV_RESULT_ACCEPTED));
+        CHECK(asked == (waits ? LANDING_FACT_START : 0U));
+    }
+}
+
+static void check_hold(bool can)
+{
+    const int result = (int)(can ? MAV_RESULT_ACCEPTED : MAV_RESULT_TEMPORARILY_REJECTED);
+    uint32_t asked;
+
+    CHECK(command((uint16_t)MAV_CMD_DO_PAUSE_CONTINUE, 0.0F, &asked) == result);
+    CHECK(asked == (can ? LANDING_FACT_PAUSE : 0U));
+    CHECK(command((uint16_t)MAV_CMD_DO_PAUSE_CONTINUE, 1.0F, &asked) == result);
+    CHECK(asked == (can ? LANDING_FACT_GO_ON : 0U));
+}
+
+static void test_hold(void)
+{
+    start();
+    for (unsigned phase = 0U; phase < (unsigned)LANDING_PHASES; phase++) {
+        const bool can = phase != (unsigned)LANDING_PHASE_STANDBY && phase != (unsigned)LANDING_PHASE_TOUCHDOWN &&
+                         phase != (unsigned)LANDING_PHASE_LANDED && phase != (unsigned)LANDING_PHASE_GIVE_UP;
+
+        test_case("to hold and to go on in %s, and the same once more", landing_phase_table[phase].name);
+        flight.landing.phase = (enum landing_phase)phase;
+        check_hold(can);
+    }
+    test_case("too low it is not promised");
+    flight.landing.phase = LANDING_PHASE_LAND;
+    flight.landing.committed = true;
+    check_hold(false);
 }
 
 static void parameter(enum mavlink_in_kind kind, const char *name, int16_t index, uint8_t type, float value)
@@ -186,6 +224,8 @@ static void test_log(void)
 void test_ground(void)
 {
     test_commands();
+    test_start_again();
+    test_hold();
     test_parameters_asked_for();
     test_parameters_set();
     test_list();

@@ -45,6 +45,7 @@ class Autopilot:
         refuses: It answers mode requests with DENIED.
         deaf: It does not act on mode requests, and says nothing of it.
         sticky: It does not disarm after touchdown by itself.
+        slow_heartbeat: HEARTBEAT comes once a second whatever is asked for.
         no_attitude: It sends no ATTITUDE.
         battery_percent: As SYS_STATUS says.
         rc_us: Channels, 0 = none.
@@ -52,6 +53,8 @@ class Autopilot:
         setpoint_us: When it came.
         target: Newest angle_x and angle_y of LANDING_TARGET.
         target_us: When it came.
+        told: Mode that its newest HEARTBEAT showed.
+        told_us: When one showed it first.
         stood_us: Since when it stands in LAND.
         intervals_us: Of the messages that it sends, by their numbers.
         next_us: When each is due.
@@ -65,6 +68,7 @@ class Autopilot:
     refuses: bool = False
     deaf: bool = False
     sticky: bool = False
+    slow_heartbeat: bool = False
     no_attitude: bool = False
     battery_percent: int = 80
     rc_us: list[int] = field(default_factory=lambda: [1500] * 7 + [1000] + [0] * 10)
@@ -72,6 +76,8 @@ class Autopilot:
     setpoint_us: int | None = None
     target: tuple[float, float] | None = None
     target_us: int = 0
+    told: str | None = None
+    told_us: int = 0
     stood_us: int | None = None
     intervals_us: dict[int, int] = field(default_factory=dict)
     next_us: dict[int, int] = field(default_factory=lambda: {mavlink.MAVLINK_MSG_ID_HEARTBEAT: 0})
@@ -81,11 +87,6 @@ class Autopilot:
         self._in = mavlink.MAVLink(None)
         self._in.robust_parsing = True
         self.intervals_us.setdefault(mavlink.MAVLINK_MSG_ID_HEARTBEAT, 1_000_000)
-
-    def set_mode(self, mode: str) -> bytes:
-        """Change the mode, as pilot or failsafe do; HEARTBEAT says so at once."""
-        self.mode = mode
-        return self._pack(self._message(mavlink.MAVLINK_MSG_ID_HEARTBEAT, 0))
 
     def hear(self, data: bytes, now_us: int) -> bytes:
         """Take what the firmware sent; returns the answers."""
@@ -110,8 +111,7 @@ class Autopilot:
     def _command(self, message: mavlink.MAVLink_message, now_us: int) -> bytes:
         result = mavlink.MAV_RESULT_ACCEPTED
         if message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
-            self.intervals_us[int(message.param1)] = int(message.param2)
-            self.next_us.setdefault(int(message.param1), now_us)
+            result = self._set_interval(int(message.param1), int(message.param2), now_us)
         elif message.command == mavlink.MAV_CMD_DO_SET_MODE:
             if self.deaf:
                 return b""
@@ -124,7 +124,14 @@ class Autopilot:
         else:
             result = mavlink.MAV_RESULT_UNSUPPORTED
         ack = mavlink.MAVLink_command_ack_message(message.command, result, 0, 0, 1, 191)
-        return self._pack(ack) + (self._pack(self._message(0, now_us)) if result == 0 else b"")
+        return self._pack(ack)
+
+    def _set_interval(self, number: int, interval_us: int, now_us: int) -> int:
+        if number == mavlink.MAVLINK_MSG_ID_HEARTBEAT and self.slow_heartbeat:
+            return mavlink.MAV_RESULT_DENIED
+        self.intervals_us[number] = interval_us
+        self.next_us.setdefault(number, now_us)
+        return mavlink.MAV_RESULT_ACCEPTED
 
     def _request(self, message: mavlink.MAVLink_message, now_us: int) -> int:
         code = int(message.param2)
@@ -146,6 +153,9 @@ class Autopilot:
         """Let the vehicle do what the mode says."""
         vehicle = self.vehicle
         wanted, yaw_rate = (0.0, 0.0, 0.0), 0.0
+        # COM_OBL_RC_ACT as it comes: without setpoints the pilot has it.
+        if self.profile == PX4 and self.mode == "steer" and not self._steered(now_us):
+            self.mode = "loiter"
         if self.mode == "steer" and self._steered(now_us):
             wanted, yaw_rate = self.setpoint[:3], self.setpoint[3]
         elif self.mode == "land":
@@ -187,6 +197,8 @@ class Autopilot:
             base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (mavlink.MAV_MODE_FLAG_SAFETY_ARMED if self.armed else 0)
             kind = mavlink.MAV_AUTOPILOT_PX4 if self.profile == PX4 else mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA
             code = CODES[self.profile][self.mode]
+            if self.told != self.mode:
+                self.told, self.told_us = self.mode, now_us
             return mavlink.MAVLink_heartbeat_message(mavlink.MAV_TYPE_QUADROTOR, kind, base, code, 4, 3)
         if number == mavlink.MAVLINK_MSG_ID_ATTITUDE and not self.no_attitude:
             vehicle = self.vehicle

@@ -33,11 +33,13 @@ SAID_S = 0.25
 elf = pytest.mark.elf
 
 
-def hover(board: Board, profile: str = ARDUPILOT, **where: float) -> Flight:
-    """A flight that hovers near the pad, powered up 2.5 s ago."""
+def hover(
+    board: Board, profile: str = ARDUPILOT, slow_heartbeat: bool = False, powered_s: float = 2.5, **where: float
+) -> Flight:
+    """A flight that hovers near the pad, powered up some time ago."""
     vehicle = Vehicle(**({"north_m": -0.4, "east_m": 0.3, "height_m": 1.6} | where))
-    flight = Flight(Autopilot(profile, vehicle), board)
-    flight.run(2.5)
+    flight = Flight(Autopilot(profile, vehicle, slow_heartbeat=slow_heartbeat), board)
+    flight.run(powered_s)
     return flight
 
 
@@ -49,6 +51,37 @@ def to_phase(flight: Flight, phase: str) -> None:
         if name == phase:
             return
     raise AssertionError(f"no phase {phase}")
+
+
+def to_search(flight: Flight) -> None:
+    """Look for a pad that is not seen."""
+    flight.pad_hidden = True
+    flight.switch(True)
+    flight.run_to("steering")
+
+
+def to_hold(flight: Flight) -> None:
+    """Be held on the way to the pad."""
+    to_phase(flight, "CENTRE")
+    flight.command(PAUSE_CONTINUE, 0)
+    flight.run_to("held by the ground", SAID_S)
+
+
+def to_wait(flight: Flight) -> None:
+    """Lose the pad."""
+    to_phase(flight, "CENTRE")
+    flight.pad_hidden = True
+    flight.run_to("pad lost", 1)
+
+
+def to_climb(flight: Flight) -> None:
+    """Lose the pad for so long that it climbs."""
+    to_wait(flight)
+    flight.run_to("pad still lost", 5)
+
+
+ASIDE = {"SEARCH": to_search, "HOLD": to_hold, "WAIT": to_wait, "CLIMB": to_climb}
+"""Phases of a landing that is not normal, and how to get there."""
 
 
 def commands_after(flight: Flight, time_s: float) -> list[str]:
@@ -68,6 +101,20 @@ def assert_lets_go(flight: Flight, seconds: float = 3.0) -> None:
     since = flight.time_s
     flight.run(since + seconds)
     assert commands_after(flight, since) == []
+
+
+def assert_aborts(flight: Flight, by: str, seconds: float = 3.0) -> None:
+    """Told to, it hands the vehicle back, and for so long commands nothing."""
+    told_s = flight.time_s
+    if by == "switch":
+        flight.switch(False)
+    else:
+        flight.command(ABORT)
+    flight.run_to("aborted", 0.3 + SAID_S)
+    assert [v for v in velocities(flight, told_s + 0.3) if v.vx or v.vy or v.vz or v.yaw_rate] == []
+    flight.run_to("handed back to the autopilot", 2)
+    assert flight.autopilot.mode == "hold"
+    assert_lets_go(flight, seconds)
 
 
 def velocities(flight: Flight, time_s: float) -> list[mavlink.MAVLink_message]:
@@ -117,6 +164,24 @@ def test_phase_1_is_at_the_search_height_wherever_it_starts(start_m: float, boar
     flight.run_to("down, motors off", 60)
 
 
+@pytest.mark.parametrize("profile", PROFILES)
+def test_landing_with_a_heartbeat_once_a_second(profile: str, board: Board) -> None:
+    """It stands still while it waits for the word of a mode; a PX4 without setpoints would fall out of OFFBOARD."""
+    flight = hover(board, profile, slow_heartbeat=True)
+    flight.switch(True)
+    flight.run_to("down, motors off", 90)
+    assert not any("WAIT" in phase or "GIVE_UP" in phase for _, phase in flight.phases)
+    modes = [s for s in flight.sent[AUTOPILOT] if getattr(s.message, "command", 0) == mavlink.MAV_CMD_DO_SET_MODE]
+    assert len(modes) == 2
+    beats = [
+        s
+        for s in flight.sent[AUTOPILOT]
+        if getattr(s.message, "command", 0) == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL
+        and s.message.param1 == mavlink.MAVLINK_MSG_ID_HEARTBEAT
+    ]
+    assert len(beats) == 5
+
+
 def test_landing_in_gusts(board: Board) -> None:
     flight = hover(board, ARDUPILOT, heading_rad=-2.0)
     random.seed(7)
@@ -150,12 +215,33 @@ def test_pilot_takes_over(phase: str, profile: str, board: Board) -> None:
     flight = hover(board, profile)
     to_phase(flight, phase)
     flight.run(flight.time_s + 0.5)
-    flight.board.say(AUTOPILOT, flight.autopilot.set_mode("rtl"))
-    told_s = flight.time_s
-    flight.run_to("mode taken by pilot or failsafe", SAID_S)
+    flight.autopilot.mode = "rtl"
+    flight.run_to("mode taken by pilot or failsafe", 0.2 + SAID_S)
     assert_lets_go(flight)
-    assert commands_after(flight, told_s + 0.02) == []
+    assert flight.autopilot.told == "rtl"
+    assert commands_after(flight, flight.autopilot.told_us / 1e6 + 0.02) == []
     assert flight.autopilot.mode == "rtl"
+
+
+@pytest.mark.parametrize("slow", [False, True])
+@pytest.mark.parametrize("profile", PROFILES)
+def test_pilot_takes_over_unheard_of_just_before_the_pad_is_lost(profile: str, slow: bool, board: Board) -> None:
+    """His mode is never asked away, whatever is wanted between two HEARTBEATs."""
+    flight = hover(board, profile, slow)
+    to_phase(flight, "LAND")
+    assert flight.run(flight.time_s + 2.5, lambda flying: flying.autopilot.told == "land")
+    told_s = flight.time_s
+    flight.run(told_s + 0.05)
+    flight.pad_hidden = True
+    # He does so after the last HEARTBEAT before 0.5 s have passed without a pad.
+    flight.run(told_s + (0.055 if slow else 0.405))
+    flight.autopilot.mode = "loiter"
+    since = flight.time_s
+    flight.run_to("pad lost", 0.5 + SAID_S)
+    flight.run_to("mode taken by pilot or failsafe", 1.1)
+    assert_lets_go(flight)
+    assert [row for row in commands_after(flight, since) if "COMMAND_LONG" in row] == []
+    assert flight.autopilot.mode == "loiter"
 
 
 @pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
@@ -164,16 +250,36 @@ def test_abort(phase: str, by: str, board: Board) -> None:
     """The autopilot's own hold is asked for, then nothing any more."""
     flight = hover(board)
     to_phase(flight, phase)
-    told_s = flight.time_s
+    assert_aborts(flight, by)
+
+
+@pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
+@pytest.mark.parametrize("phase", ASIDE)
+def test_abort_aside_from_the_normal_landing(phase: str, by: str, board: Board) -> None:
+    # So low that it still climbs when it is told.
+    flight = hover(board, powered_s=1.0, height_m=1.0)
+    ASIDE[phase](flight)
+    assert flight.phases[-1][1] == phase
+    assert_aborts(flight, by, 1.5)
+
+
+@pytest.mark.parametrize("by", ["switch", pytest.param("command", marks=elf)])
+def test_abort_on_the_ground_leaves_the_autopilot_alone(by: str, board: Board) -> None:
+    flight = hover(board, powered_s=1.0, north_m=-0.1, east_m=0.1, height_m=0.5)
+    flight.autopilot.sticky = True
+    to_phase(flight, "CENTRE")
+    # The shortest way down.
+    flight.autopilot.battery_percent = 10
+    flight.autopilot.next_us[mavlink.MAVLINK_MSG_ID_SYS_STATUS] = 0
+    flight.run_to("battery low: lands at once", 2)
+    flight.run_to("touched down", 10)
     if by == "switch":
         flight.switch(False)
     else:
         flight.command(ABORT)
-    flight.run_to("aborted", 0.3 + SAID_S)
-    assert [v for v in velocities(flight, told_s + 0.3) if v.vx or v.vy or v.vz or v.yaw_rate] == []
-    flight.run_to("handed back to the autopilot", 2)
-    assert flight.autopilot.mode == "hold"
-    assert_lets_go(flight)
+    flight.run_to("aborted on the ground", 0.1 + SAID_S)
+    assert_lets_go(flight, 1.5)
+    assert flight.autopilot.mode == "land"
 
 
 @pytest.mark.parametrize("profile", PROFILES)
@@ -216,17 +322,6 @@ def test_autopilot_that_does_not_land_stands_still(board: Board) -> None:
     flight.run_to("autopilot refuses a mode", 5)
     flight.run_to("autopilot refuses to hold: take over", 5)
     assert abs(flight.vehicle.height_m - height_m) < 0.2
-
-
-def test_abort_on_the_ground_leaves_the_autopilot_alone(board: Board) -> None:
-    flight = hover(board)
-    flight.autopilot.sticky = True
-    to_phase(flight, "LAND")
-    flight.run_to("touched down")
-    flight.command(ABORT)
-    flight.run_to("aborted on the ground", SAID_S)
-    assert_lets_go(flight)
-    assert flight.autopilot.mode == "land"
 
 
 Change = Callable[[Flight], None]
@@ -415,6 +510,32 @@ def test_hold_and_go_on(board: Board) -> None:
     flight.command(PAUSE_CONTINUE, 1)
     flight.run_to("goes on", SAID_S)
     flight.run_to("down, motors off", 60)
+
+
+def test_hold_as_soon_as_it_starts_and_a_start_that_is_sent_again(board: Board) -> None:
+    flight = hover(board)
+    flight.command(LAND)
+    flight.run_to("start", SAID_S)
+    flight.command(LAND)
+    flight.command(PAUSE_CONTINUE, 0)
+    flight.run_to("held by the ground", SAID_S)
+    since = flight.time_s
+    flight.run(since + 1)
+    assert flight.autopilot.mode == "steer"
+    assert all(v.vx == v.vy == v.vz == v.yaw_rate == 0.0 for v in velocities(flight, 0))
+    flight.command(LAND)
+    flight.command(PAUSE_CONTINUE, 1)
+    flight.run_to("goes on", SAID_S)
+    flight.run_to("pad seen", 1)
+    answers = [sent.message for sent in flight.sent[GROUND] if sent.message.get_type() == "COMMAND_ACK"]
+    assert [(answer.command, answer.result) for answer in answers] == [
+        (LAND, mavlink.MAV_RESULT_ACCEPTED),
+        (LAND, mavlink.MAV_RESULT_ACCEPTED),
+        (PAUSE_CONTINUE, mavlink.MAV_RESULT_ACCEPTED),
+        (LAND, mavlink.MAV_RESULT_TEMPORARILY_REJECTED),
+        (PAUSE_CONTINUE, mavlink.MAV_RESULT_ACCEPTED),
+    ]
+    assert [text for _, text in flight.texts].count("Touchdown: start") == 1
 
 
 @pytest.mark.parametrize(
