@@ -114,8 +114,11 @@ void flight_on_frame(struct flight *flight, const struct attitude *attitude, con
     }
     const double scale = altitude->pad_scale;
 
+    // A frame without a reading says neither: it leaves that as it was.
+    const bool agreed = altitude->from_lidar || (!altitude->lidar_implausible && known->agreed_us == known->pad_us);
+
     known->pad_us = now_us;
-    if (!altitude->lidar_implausible) {
+    if (agreed) {
         known->agreed_us = now_us;
     }
     // Seen it is; but turned level by an old attitude it would be steered by as soon as ATTITUDE is back.

@@ -76,9 +76,9 @@ static uint32_t autopilot_facts(const struct landing *landing, const struct land
 
 static uint32_t sensor_facts(const struct landing_known *known, uint64_t now_us)
 {
-    // Only while the pad is seen is there a size to contradict.
-    const bool contradicts = is_fresh(known->pad_us, now_us, LANDING_PAD_FRESH_US) &&
-                             !is_fresh(known->agreed_us, now_us, CONTRADICTS_US);
+    // Until the pad is lost there is a size to contradict, also where it is seen only now and then.
+    const bool contradicts = is_fresh(known->pad_us, now_us, PAD_LOST_US) &&
+                             !is_fresh(known->agreed_us, known->pad_us, CONTRADICTS_US);
     const bool ground_lost = known->parameters->ground_needed >= 0.5F &&
                              !is_fresh(known->ground_us, now_us, GROUND_LOST_US);
 

@@ -57,7 +57,7 @@ enum landing_steer {
 #define LANDING_FACT_GROUND_LOST 0x00001000u // TD_GCS_NEEDED is 1, and no HEARTBEAT of a ground station for 5 s
 #define LANDING_FACT_CAMERA_LOST 0x00002000u // no good record for 0.3 s
 #define LANDING_FACT_LIDAR_STALE 0x00004000u // no usable reading for 0.3 s
-#define LANDING_FACT_LIDAR_CONTRADICTS 0x00008000u // for 0.5 s each reading has contradicted the pad's size
+#define LANDING_FACT_LIDAR_CONTRADICTS 0x00008000u // for 0.5 s and more each reading contradicted the size of the pad, which is not lost
 #define LANDING_FACT_ATTITUDE_STALE 0x00010000u // no ATTITUDE for 0.25 s: what is level is not known
 #define LANDING_FACT_PAD 0x00020000u // the pad is seen: in 5 frames in a row of one track, with no gap of more than 0.1 s and a fresh ATTITUDE to each; a frame that the tracker bridges does not count
 #define LANDING_FACT_PAD_LOST 0x00040000u // no frame with the pad for 0.5 s

@@ -171,6 +171,10 @@ static void test_frames(void)
     now_us += TICK_US;
     frame(0.4, 2.0, 90.0, false);
     CHECK(flight.known.pad_row == 2U && flight.known.agreed_us == now_us - TICK_US);
+    test_case("a frame without a reading of the LiDAR does not make it agree");
+    now_us += TICK_US;
+    frame(0.4, 2.0, 90.0, true);
+    CHECK(flight.known.pad_us == now_us && flight.known.agreed_us == now_us - 2U * TICK_US);
     test_case("a count that is at its end stays there");
     flight.known.pad_row = UINT32_MAX;
     frame(0.4, 2.0, 90.0, true);

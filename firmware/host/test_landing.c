@@ -144,8 +144,11 @@ static void test_lidar_contradicts(void)
     CHECK((facts_at(t) & LANDING_FACT_LIDAR_CONTRADICTS) == 0U);
     known.agreed_us = t - 500001U;
     CHECK((facts_at(t) & LANDING_FACT_LIDAR_CONTRADICTS) != 0U);
-    known.pad_us = t - 100001U; // no pad, nothing to contradict
-    CHECK((facts_at(t) & LANDING_FACT_LIDAR_CONTRADICTS) == 0U);
+    test_case("a pad that is seen only now and then is contradicted until it is lost");
+    CHECK((facts_at(t + 500000U) & LANDING_FACT_LIDAR_CONTRADICTS) != 0U);
+    CHECK((facts_at(t + 500001U) & LANDING_FACT_LIDAR_CONTRADICTS) == 0U);
+    known.agreed_us = t - 400000U;
+    CHECK((facts_at(t + 400000U) & LANDING_FACT_LIDAR_CONTRADICTS) == 0U);
 }
 
 static void test_settling(void)
