@@ -195,7 +195,8 @@ bool autopilot_refuses(const struct autopilot *autopilot, uint64_t now_us)
     return autopilot->wanted != LANDING_MODE_NONE && !autopilot_is_in(autopilot, autopilot->wanted) &&
            (autopilot->profile == AUTOPILOT_UNKNOWN || autopilot->rejected ||
             (autopilot->accepted_us != 0U && now_us >= autopilot->accepted_us + AUTOPILOT_SHOWN_AFTER_US) ||
-            (autopilot->accepted_us == 0U && autopilot->requests >= AUTOPILOT_REQUESTS_MAX && now_us >= autopilot->next_request_us));
+            (autopilot->accepted_us == 0U && autopilot->requests >= AUTOPILOT_REQUESTS_MAX &&
+             now_us >= autopilot->next_request_us));
 }
 
 // A request would override a pilot who has just taken over, so it goes out on the word of a HEARTBEAT that no one has,

@@ -76,7 +76,8 @@ bool autopilot_is_in(const struct autopilot *autopilot, enum landing_mode mode);
 // From now on this mode is wanted; LANDING_MODE_NONE asks for nothing.
 void autopilot_want(struct autopilot *autopilot, enum landing_mode mode, uint64_t now_us);
 
-// It rejected the wanted mode, or did not take it after AUTOPILOT_REQUESTS_MAX requests, or accepted and does not show it.
+// It rejected the wanted mode, or did not take it after AUTOPILOT_REQUESTS_MAX requests, or accepted it and does not
+// show it.
 bool autopilot_refuses(const struct autopilot *autopilot, uint64_t now_us);
 
 // The mode that is to be asked for now, if any. To be sent at once.

@@ -32,7 +32,7 @@
 #define MIRROR_MISFIT 1.5
 
 // So much a frame may cost: when the slopes have been taken this often, the hypotheses that are left wait for the next
-// frame. Of 4600 frames in which a pad was found, on photographs and rendered, 10 needed more.
+// frame. Of 4600 frames in which a pad was found, on photographs and rendered, 7 needed more.
 #define SLOPES_A_FRAME 8
 
 // How well each way of telling the centre knows it.

@@ -257,7 +257,8 @@ static bool is_hopeless(const struct pad_evidence *evidence, int steps, double c
            (steps >= CRAWLING_PAIR_STEPS && cost > CRAWLING_PAIR_COST);
 }
 
-// So small a step that the slopes where it began serve for the next one too. Taking them costs six times what a step does.
+// So small a step that the slopes where it began serve for the next one too: taking them costs six times what a step
+// does.
 static bool is_small(const double step[PAD_PARAMETERS])
 {
     bool small = true;
