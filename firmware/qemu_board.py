@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ELF on QEMU's Zynq without programmable logic, with the ground's wire, a reset button, and a debugger's door."""
+"""The ELF on QEMU's Zynq without programmable logic, with the ground's wire, a reset button and a debugger's door."""
 
 import re
 import shutil
@@ -7,7 +7,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -15,6 +15,7 @@ from pymavlink.dialects.v20 import common as mavlink
 from firmware.library import BUILD, make
 
 LIMIT_S = 60.0
+_POLL_S = 0.05
 FREE = 0x01F0_0000
 """Memory that nothing uses."""
 _PC, STATUS = 15, 25
@@ -30,9 +31,12 @@ class Board:
         self._process = process
         self._ground = self._open(folder / "uart1")
         self._debug_path = folder / "gdb"
+        self._packer = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
+        self._listen()
+
+    def _listen(self) -> None:
         self._parser = mavlink.MAVLink(None)
         self._parser.robust_parsing = True
-        self._packer = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
         self.said: list[mavlink.MAVLink_message] = []
 
     def _open(self, path: Path) -> socket.socket:
@@ -47,7 +51,7 @@ class Board:
                 assert time.monotonic() < deadline, f"QEMU does not open {path.name}"
                 time.sleep(0.05)
             else:
-                wire.settimeout(0.05)
+                wire.settimeout(_POLL_S)
                 return wire
 
     def wait_for(self, kind: str, pattern: str) -> mavlink.MAVLink_message:
@@ -69,9 +73,19 @@ class Board:
         self._ground.sendall(bytes(message.pack(self._packer)))
 
     def restart(self) -> None:
-        """A reset of the processor; memory that the ELF does not fill stays."""
-        self._process.stdin.write("system_reset\n")
-        self._process.stdin.flush()
+        """A reset of the processor; memory that the ELF does not fill stays.
+
+        What it sent before is forgotten, so that a message that is cut off does not swallow the first after it.
+        """
+        with self._door() as wire:
+            self._ground.setblocking(False)
+            with suppress(BlockingIOError):
+                while self._ground.recv(4096):
+                    pass
+            self._ground.settimeout(_POLL_S)
+            self._listen()
+            self._ask(wire, f"qRcmd,{b'system_reset'.hex()}", b"$OK#")
+            self._ask(wire, "D", b"$OK#")
 
     def jump(self, address: int, registers: Sequence[int] = (), code: Sequence[int] = ()) -> None:
         """Let the processor go on somewhere else, in system mode with interrupts on.
@@ -143,14 +157,12 @@ def running(folder: Path) -> Iterator[Board]:
     assert qemu is not None, "qemu-system-arm is not installed; run make setup"
     make("elf")
     command = [
-        *(qemu, "-M", "xilinx-zynq-a9", "-m", "512M", "-display", "none", "-nodefaults", "-monitor", "stdio"),
+        *(qemu, "-M", "xilinx-zynq-a9", "-m", "512M", "-display", "none", "-nodefaults", "-monitor", "none"),
         *("-serial", "null", "-chardev", f"socket,id=u1,path={folder / 'uart1'},server=on,wait=off"),
         *("-serial", "chardev:u1", "-gdb", f"unix:path={folder / 'gdb'},server=on,wait=off"),
         *("-kernel", str(BUILD / "touchdown.elf")),
     ]
-    process = subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT, text=True
-    )
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         yield Board(folder, process)
     finally:

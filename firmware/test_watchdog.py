@@ -15,6 +15,8 @@ LOAD_VALUE = 325_000 * 500
 ENABLED = 0b1001
 BRANCH_TO_ITSELF = 0xEAFF_FFFE
 STORE_R3_AT_R2, STORE_R1_AT_R0, GO_TO_R4 = 0xE582_3000, 0xE580_1000, 0xE12F_FF14
+STORE_R6_AT_R5, STORE_R7_AT_R5 = 0xE585_6000, 0xE585_7000
+UART1_FIFO, MAVLINK_2, LONGEST = 0xE000_1030, 0xFD, 0xFF
 SLCR_UNLOCK, UNLOCK_KEY, REBOOT_STATUS, BITTEN = 0xF800_0008, 0xDF0D, 0xF800_0258, 1 << 17
 PAINT = 0x5AFE_57AC
 
@@ -62,9 +64,13 @@ def test_a_crash_does_not(board: Board) -> None:
 
 
 def test_the_next_start_says_so_once(board: Board) -> None:
-    """The system's note of a reset by the watchdog is made by hand, then the start-up code runs."""
-    registers = [REBOOT_STATUS, BITTEN, SLCR_UNLOCK, UNLOCK_KEY, address_of("start")]
-    board.jump(FREE, registers, [STORE_R3_AT_R2, STORE_R1_AT_R0, GO_TO_R4])
+    """The system's note of a reset by the watchdog is made by hand, then the start-up code runs.
+
+    It is heard although the reset cut a message off after its length.
+    """
+    cut = [UART1_FIFO, MAVLINK_2, LONGEST]
+    registers = [REBOOT_STATUS, BITTEN, SLCR_UNLOCK, UNLOCK_KEY, address_of("start"), *cut]
+    board.jump(FREE, registers, [STORE_R3_AT_R2, STORE_R1_AT_R0, STORE_R6_AT_R5, STORE_R7_AT_R5, GO_TO_R4])
     board.wait_for("STATUSTEXT", "Touchdown: started")
     board.wait_for("STATUSTEXT", "restarted: watchdog")
     assert board.word(REBOOT_STATUS) == 0

@@ -10,6 +10,7 @@
 #include "gic.h"
 #include "keep.h"
 #include "landing_hw.h"
+#include "mavlink_out.h"
 #include "stack.h"
 #include "timer.h"
 #include "uart.h"
@@ -87,13 +88,20 @@ static void sleep_until_interrupt(void)
     interrupts_enable();
 }
 
-// Why the run before this one ended, if not by its power.
-static void report_restart(void)
+// The watchdog cuts a message off, and whoever receives it takes the first bytes of this run for its rest. Zeros, as
+// many as the longest message has, end it.
+static void end_cut_message(void)
+{
+    static const uint8_t zeros[MAVLINK_OUT_MAX_BYTES];
+
+    uart_write_polled(UART_1, zeros, sizeof zeros);
+}
+
+// Why the run before this one ended, if not by its power. After a crash the watchdog is what restarts.
+static void report_restart(bool bitten)
 {
     uint32_t kind;
     uint32_t address;
-    // Asked in any case: the note must not be there for the next start. After a crash the watchdog is what restarts.
-    const bool bitten = watchdog_has_bitten();
 
     if (crash_take(&keep.crash, &kind, &address)) {
         app_on_crash(&app, kind, address);
@@ -201,10 +209,15 @@ int main(void)
     uart_init(UART_1, BOARD_GROUND_BAUD);
     interrupts_enable();
 
+    // Asked in any case: the note must not be there for the next start.
+    const bool bitten = watchdog_has_bitten();
+    if (bitten) {
+        end_cut_message();
+    }
     const char *fault = landing_hw_fault();
     has_hardware = fault == NULL;
     app_init(&app, &port, clock_us(), fault);
-    report_restart();
+    report_restart(bitten);
     app_load_parameters(&app, keep.parameters, sizeof keep.parameters);
     if (has_hardware) {
         landing_hw_start(app_min_area_px(&app), app_threshold_register(&app));

@@ -31,7 +31,7 @@ struct uart_losses uart_lost(enum uart_id id);
 uint32_t uart_sent(enum uart_id id);
 bool uart_is_sending(enum uart_id id);
 
-// For faults: without interrupts; sends what is in the ring, then the bytes. Gives
+// For faults and starts: without interrupts; sends what is in the ring, then the bytes. Gives
 // up on a UART that takes nothing.
 void uart_write_polled(enum uart_id id, const uint8_t *bytes, size_t size);
 
