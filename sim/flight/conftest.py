@@ -11,6 +11,8 @@ import pytest
 from firmware.library import make
 from sim.flight.board import Board, HostBoard, ZynqBoard
 
+pytest.register_assert_rewrite("sim.flight.steps")
+
 BOARDS = {"host": HostBoard, "zynq": ZynqBoard}
 
 
