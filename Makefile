@@ -68,6 +68,10 @@ signoff: setup ## The table of what each core passed, from the results of the la
 synth: setup ## Area of one core or all, against constraints/budgets.toml (yosys, xc7): [CORE=name]
 	@$(PYTHON) -m scripts.synth $(if $(CORE),--core "$(CORE)")
 
+.PHONY: pnr
+pnr: setup ## How fast one core or all are, placed and routed by nextpnr for the Zynq-7020: [CORE=name]
+	@$(PYTHON) -m scripts.pnr $(if $(CORE),--core "$(CORE)")
+
 .PHONY: sim
 sim: setup ## Test one core in one simulator: CORE=name [SIM=icarus|verilator] [SEED=n] [WAVES=1]
 	@$(PYTHON) -m tb.common.runner --core "$(CORE)" --sim "$(SIM)" $(if $(SEED),--seed "$(SEED)") $(if $(filter-out 0,$(WAVES)),--waves)

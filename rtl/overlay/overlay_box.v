@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a pixel lies on the line of a box, 2 pixels wide and inside of it.
+//
+// Latency 0 cycles from x, y. Throughput: a pixel a cycle. Border, rounding, overflow: none. Limits: what sample finds
+// counts for the pixels from the next cycle on.
+
+`default_nettype none
+
+module overlay_box (
+    input  wire               clk,
+    input  wire               rst,
+    input  wire               sample,
+    input  wire               show,
+    input  wire signed [13:0] left,
+    input  wire signed [13:0] top,
+    input  wire signed [13:0] right,
+    input  wire signed [13:0] bottom,
+    input  wire signed [13:0] x,
+    input  wire signed [13:0] y,
+    output wire               covers
+);
+
+  localparam signed [14:0] LINE = 15'sd2;
+
+  reg show_reg;
+  reg signed [13:0] left_reg, top_reg, right_reg, bottom_reg;
+
+  // How far within the box; negative is outside.
+  wire signed [14:0] from_left = x - left_reg;
+  wire signed [14:0] from_top = y - top_reg;
+  wire signed [14:0] from_right = right_reg - x;
+  wire signed [14:0] from_bottom = bottom_reg - y;
+  wire contains = !(from_left[14] || from_top[14] || from_right[14] || from_bottom[14]);
+  wire at_edge = from_left < LINE || from_top < LINE || from_right < LINE || from_bottom < LINE;
+
+  assign covers = show_reg && contains && at_edge;
+
+  always @(posedge clk) begin
+    if (sample) begin
+      show_reg   <= show;
+      left_reg   <= left;
+      top_reg    <= top;
+      right_reg  <= right;
+      bottom_reg <= bottom;
+    end
+    if (rst) show_reg <= 1'b0;
+  end
+
+endmodule
+
+`default_nettype wire

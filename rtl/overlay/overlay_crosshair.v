@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a pixel lies on the crosshair: arms of 40 pixels from the middle of the frame, 1 pixel wide.
+//
+// Latency 0 cycles from x, y. Throughput: a pixel a cycle. Border, overflow: none. Rounding: the middle is at half of
+// width and height, rounded down. Limits: what sample finds counts for the pixels from the next cycle on.
+
+`default_nettype none
+
+module overlay_crosshair (
+    input  wire               clk,
+    input  wire               rst,
+    input  wire               sample,
+    input  wire               show,
+    input  wire signed [13:0] half_width,
+    input  wire signed [13:0] half_height,
+    input  wire signed [13:0] x,
+    input  wire signed [13:0] y,
+    output wire               covers
+);
+
+  localparam signed [14:0] ARM = 15'sd40;
+
+  reg show_reg;
+  reg signed [13:0] middle_x_reg, middle_y_reg;
+
+  wire signed [14:0] right = x - middle_x_reg;
+  wire signed [14:0] below = y - middle_y_reg;
+  wire level = below == 15'sd0 && right >= -ARM && right <= ARM;
+  wire upright = right == 15'sd0 && below >= -ARM && below <= ARM;
+
+  assign covers = show_reg && (level || upright);
+
+  always @(posedge clk) begin
+    if (sample) begin
+      show_reg     <= show;
+      middle_x_reg <= half_width;
+      middle_y_reg <= half_height;
+    end
+    if (rst) show_reg <= 1'b0;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two lines of 64 characters at the top of the frame, cells of 16x16 pixels: each pixel of the font is 2x2 of the frame.
+//
+// Latency: 2 beats from x, y to behind, ink. Throughput: a pixel a cycle. Border, rounding, overflow: none. Limits: what
+// is written while it is read may show in part; letters are capital ones; before all of it was written, show must be 0.
+
+`default_nettype none
+
+module overlay_text (
+    input wire clk,
+    input wire rst,
+
+    input wire       write,
+    input wire [6:0] address,  // {line, column}
+    input wire [6:0] char,
+
+    input wire sample,
+    input wire show,
+
+    input  wire        advance,
+    input  wire [13:1] x,
+    input  wire [13:1] y,
+    output reg         behind,   // the pixel lies in the cell of a character
+    output reg         ink       // and on the character itself
+);
+
+  `include "overlay_font.vh"
+
+  reg  [6:0] chars                                           [0:127];
+  reg        show_reg;
+
+  // One beat later: the character, and where in it.
+  reg  [6:0] char_reg;
+  reg        within_reg;
+  reg  [2:0] row_reg;
+  reg  [2:0] column_reg;
+
+  // Lower case is drawn as upper case: only one bit tells the two halves of the font apart.
+  wire [5:0] glyph = {char_reg[6], char_reg[4:0]};
+  wire       is_drawn = within_reg && char_reg[6:5] != 2'b00;
+
+  always @(posedge clk) begin
+    if (write) chars[address] <= char;
+    if (sample) show_reg <= show;
+    if (rst) show_reg <= 1'b0;
+    if (advance) begin
+      char_reg   <= chars[{y[4], x[9:4]}];
+      within_reg <= show_reg && x[13:10] == 4'd0 && y[13:5] == 9'd0;
+      row_reg    <= y[3:1];
+      column_reg <= x[3:1];
+      behind     <= is_drawn;
+      ink        <= is_drawn && FONT[{glyph, row_reg, column_reg}];
+    end
+  end
+
+endmodule
+
+`default_nettype wire
