@@ -25,6 +25,7 @@ void test_detect(void);
 void test_detect_not(void);
 void test_factor_search(void);
 void test_flight(void);
+void test_flight_modes(void);
 void test_frame_queue(void);
 void test_fusion(void);
 void test_grid(void);

@@ -50,6 +50,7 @@ int main(void)
     test_detect_not();
     test_factor_search();
     test_flight();
+    test_flight_modes();
     test_frame_queue();
     test_fusion();
     test_grid();
