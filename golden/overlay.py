@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the firmware found, drawn over the camera's picture; boxes equal `cv2.rectangle`."""
 
+import re
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -36,10 +37,11 @@ def read_font() -> npt.NDArray[np.bool_]:
     """The letters: bool array (64, 8, 8), glyph 0 is the space of ASCII.
 
     Raises:
-        ValueError: the file holds another number of rows, or rows of another length.
+        ValueError: the file holds another number of rows, rows of another length, or another letter than `.` and `#`.
     """
     rows = [line.split() for line in FONT_FILE.read_text(encoding="ascii").splitlines() if line.startswith(".")]
-    if len(rows) != 64 or any(len(row) != 8 or any(len(cell) != 8 for cell in row) for row in rows):
+    cells = [cell for row in rows for cell in row]
+    if [len(row) for row in rows] != [8] * 64 or not all(re.fullmatch("[.#]{8}", cell) for cell in cells):
         raise ValueError(f"{FONT_FILE.name} must hold 64 rows of 8 cells of 8 pixels each.")
     pixels = np.array([[[pixel == "#" for pixel in cell] for cell in row] for row in rows])
     return pixels.reshape(8, 8, 8, 8).swapaxes(1, 2).reshape(64, 8, 8)

@@ -5,9 +5,11 @@ Debian's stable release has none, so the packages of sid are laid out in `build/
 and C library; nothing is installed. Sid moves on: what ran says its version.
 """
 
+import platform
 import re
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +25,7 @@ MHZ = re.compile(r"Max frequency for clock '([^']*)': ([0-9.]+) MHz")
 
 
 class NotRoutedError(Exception):
-    """Nextpnr ended without a routed design; the message is its last error."""
+    """Nextpnr gave no figure; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -33,10 +35,15 @@ class Nextpnr:
     command: tuple[str, ...]
 
     def version(self) -> str:
-        """What it calls itself."""
-        run = subprocess.run([*self.command, "--version"], capture_output=True, text=True, check=False)
-        found = re.search(r"Version ([^)\s]+)", run.stdout + run.stderr)
-        return found[1] if found else "unknown"
+        """What it calls itself.
+
+        Raises:
+            UserError: It does not run.
+        """
+        found = re.search(r"Version ([^)\s]+)", _output([*self.command, "--version"])[1])
+        if found is None:
+            raise UserError(f"{COMMAND} does not run here; remove build/nextpnr, or what is on PATH, and try again.")
+        return found[1]
 
     def route(self, netlist: Path, pins: Path, mhz: float, seed: int) -> dict[str, float]:
         """Place and route a netlist of yosys.
@@ -48,27 +55,43 @@ class Nextpnr:
             seed: Of the placement; the same gives the same.
 
         Returns:
-            MHz of each clock after routing, by its net.
+            MHz of each clock after routing, by its name in the core.
 
         Raises:
             NotRoutedError: It gave up.
         """
         inputs = ["--device", DEVICE, "--json", str(netlist), "-o", f"xdc={pins}"]
         goals = ["--freq", f"{mhz:g}", "--seed", str(seed), "--timing-allow-fail"]
-        run = subprocess.run([*self.command, *inputs, *goals], capture_output=True, text=True, check=False)
-        log = run.stdout + run.stderr
-        if run.returncode != 0:
+        code, log = _output([*self.command, *inputs, *goals])
+        if code != 0:
             errors = [line for line in log.splitlines() if line.startswith("ERROR")]
-            raise NotRoutedError(errors[-1] if errors else f"nextpnr ended with {run.returncode}")
-        # Each clock stands there once after placement and once after routing.
-        return {net: float(figure) for net, figure in MHZ.findall(log)}
+            raise NotRoutedError(errors[-1] if errors else f"nextpnr ended with {code}")
+        # Each clock stands there once after placement and once after routing, under the name of a net in the core, with
+        # a suffix where it begins at a buffer.
+        return {net.rsplit(".", 1)[-1].split("$")[0]: float(figure) for net, figure in MHZ.findall(log)}
+
+
+def _output(command: Sequence[str]) -> tuple[int, str]:
+    """Exit code of a command and all that it prints.
+
+    Raises:
+        UserError: It cannot be started.
+    """
+    try:
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise UserError(f"{command[0]} cannot be started: {error.strerror}.") from error
+    return run.returncode, run.stdout + run.stderr
 
 
 def find(root: Path) -> Nextpnr | None:
     """The machine's own, or the one that `fetch` laid out in this folder."""
     own = shutil.which(COMMAND)
-    if own is not None:
-        return Nextpnr((own,))
+    return Nextpnr((own,)) if own is not None else find_in(root)
+
+
+def find_in(root: Path) -> Nextpnr | None:
+    """The one whose packages are laid out in a folder."""
     libraries, program = root / LIBRARIES, root / "usr/bin" / COMMAND
     loader = libraries / "ld-linux-x86-64.so.2"
     if not (program.is_file() and loader.is_file() and (root / CHIP).is_file()):
@@ -77,27 +100,36 @@ def find(root: Path) -> Nextpnr | None:
     return Nextpnr((*by_itself, "--chipdb", str(root / CHIP)))
 
 
-def _run(command: Sequence[str], what: str) -> None:
-    run = subprocess.run(command, capture_output=True, text=True, check=False)
-    if run.returncode != 0:
-        lines = (run.stderr or run.stdout).strip().splitlines()
-        raise UserError(f"{what} failed: {lines[-1] if lines else 'no reason given'}")
+def why_not_here() -> str:
+    """Why Debian's packages are of no use on this machine; empty where they are."""
+    if platform.machine() != "x86_64":
+        return f"this machine is {platform.machine()}, not x86_64"
+    missing = [tool for tool in ("apt-get", "dpkg-deb") if shutil.which(tool) is None]
+    return f"{missing[0]} is not here" if missing else ""
 
 
 def fetch(root: Path) -> None:
-    """Lay the packages of Debian sid out in a folder (24 MB to load, 285 MB on disk).
+    """Lay the packages of Debian sid out in a folder (24 MB to load, 285 MB on disk): all of it, or nothing.
 
     Raises:
-        UserError: This is no Debian on x86-64, or its packages cannot be reached.
+        UserError: The packages cannot be loaded or laid out.
     """
-    for tool in ("apt-get", "dpkg-deb", "tar"):
-        if shutil.which(tool) is None:
-            raise UserError(
-                f"nextpnr comes from Debian's packages, and {tool} is not here; install {COMMAND} yourself."
-            )
-    apt = root.parent / "nextpnr-apt"
-    shutil.rmtree(root, ignore_errors=True)
-    shutil.rmtree(apt, ignore_errors=True)
+    try:
+        root.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix="nextpnr-", dir=root.parent) as folder:
+            new = Path(folder) / "root"
+            _lay_out(Path(folder), new)
+            tool = find_in(new)
+            if tool is None:
+                raise UserError(f"the packages of {COMMAND} do not hold what is needed; install it yourself.")
+            tool.version()
+            new.replace(root)
+    except OSError as error:
+        raise UserError(f"nextpnr cannot be laid out in {root}: {error.strerror}.") from error
+
+
+def _lay_out(apt: Path, root: Path) -> None:
+    """Load the packages, in a folder of apt's own, and unpack them."""
     for folder in ("state/lists/partial", "cache/archives/partial", "none"):
         (apt / folder).mkdir(parents=True)
     (apt / "sources.list").write_text(SID)
@@ -112,12 +144,19 @@ def fetch(root: Path) -> None:
         "APT::Sandbox::User": "root",
         "APT::Architecture": "amd64",
         "APT::Install-Recommends": "false",
+        "APT::Update::Error-Mode": "any",
         "Acquire::Languages": "none",
     }
     options = [f"-o{name}={value}" for name, value in settings.items()]
-    _run(["apt-get", *options, "update"], "apt-get update of Debian sid")
-    _run(["apt-get", *options, "install", "-y", "--download-only", COMMAND], f"apt-get of {COMMAND}")
-    root.mkdir(parents=True)
+    _do(["apt-get", *options, "update"], "apt-get update of Debian sid")
+    _do(["apt-get", *options, "install", "-y", "--download-only", COMMAND], f"apt-get of {COMMAND}")
+    root.mkdir()
     for package in sorted((apt / "cache/archives").glob("*.deb")):
-        _run(["dpkg-deb", "--extract", str(package), str(root)], f"unpacking {package.name}")
-    shutil.rmtree(apt)
+        _do(["dpkg-deb", "--extract", str(package), str(root)], f"unpacking {package.name}")
+
+
+def _do(command: Sequence[str], what: str) -> None:
+    code, text = _output(command)
+    if code != 0:
+        lines = text.strip().splitlines()
+        raise UserError(f"{what} failed: {lines[-1] if lines else 'no reason given'}")

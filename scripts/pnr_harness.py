@@ -19,8 +19,8 @@ from tb.common.cores import ROOT, Core
 TOP = "pnr_harness"
 PINS = {"clk": "H16", "pix_clk": "K17", "serial_in": "D19", "serial_out": "R14"}
 """Pins of the Arty Z7-20; the clocks are at pins that can hold one."""
-PIXEL_PORTS = ("vid_data", "vid_de", "vid_hsync", "vid_vsync")
-"""Inputs that belong to `pix_clk` where a core has one."""
+PIXEL_PORTS = tuple(f"{side}_{name}" for side in ("vid", "out") for name in ("data", "de", "hsync", "vsync"))
+"""Ports that belong to `pix_clk` where a core has one."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,6 @@ def harness(core: Core, ports: list[Port], parameters: Mapping[str, int]) -> str
     outputs = [port for port in ports if port.direction == "output"]
     of_pixels = [port for port in inputs if has_pixel_clock and port.name in PIXEL_PORTS]
     of_clk = [port for port in inputs if port not in of_pixels]
-    width = sum(port.width for port in outputs)
     lines = [
         f"module {TOP} (",
         "    input wire clk,",
@@ -99,16 +98,29 @@ def harness(core: Core, ports: list[Port], parameters: Mapping[str, int]) -> str
         *(f"        .{name}({name})," for name in names[:-1]),
         f"        .{names[-1]}({names[-1]})",
         "    );",
-        f"    reg [{width - 1}:0] out_reg;",
-        f"    reg [{width - 1}:0] fold_reg;",
-        "    always @(posedge clk) begin",
-        f"        out_reg <= {{{', '.join(port.name for port in outputs)}}};",
-        f"        fold_reg <= out_reg ^ {{fold_reg[{width - 2}:0], fold_reg[{width - 1}]}};",
-        "    end",
-        f"    assign serial_out = fold_reg[{width - 1}];",
-        "endmodule",
     ]
+    to_pixels = [port for port in outputs if has_pixel_clock and port.name in PIXEL_PORTS]
+    folds = {"clk": [port for port in outputs if port not in to_pixels], "pix_clk": to_pixels}
+    for clock, ports_of_clock in folds.items():
+        if ports_of_clock:
+            lines += _fold(clock, ports_of_clock)
+    ends = [f"{clock}_fold_reg[0]" for clock, ports_of_clock in folds.items() if ports_of_clock]
+    lines += [f"    assign serial_out = {' ^ '.join(ends)};", "endmodule"]
     return "\n".join(lines) + "\n"
+
+
+def _fold(clock: str, ports: list[Port]) -> list[str]:
+    """Outputs into flip-flops, and these into a register that turns round: none can be left out as unused."""
+    width = sum(port.width for port in ports)
+    turned = f"{{{clock}_fold_reg[0], {clock}_fold_reg[{width - 1}:1]}}" if width > 1 else f"{clock}_fold_reg"
+    return [
+        f"    reg [{width - 1}:0] {clock}_out_reg;",
+        f"    reg [{width - 1}:0] {clock}_fold_reg;",
+        f"    always @(posedge {clock}) begin",
+        f"        {clock}_out_reg <= {{{', '.join(port.name for port in ports)}}};",
+        f"        {clock}_fold_reg <= {clock}_out_reg ^ {turned};",
+        "    end",
+    ]
 
 
 def constraints(ports: list[Port]) -> str:

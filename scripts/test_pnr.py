@@ -6,11 +6,13 @@ from pathlib import Path
 import pytest
 
 from scripts import nextpnr, pnr
+from scripts.errors import UserError
 from scripts.nextpnr import Nextpnr, NotRoutedError
-from scripts.pnr_harness import constraints, harness, ports_of
+from scripts.pnr_harness import Port, constraints, harness, ports_of
 from scripts.synth import budgets
 from tb.common.cores import core_names, load_core
 
+CLOCKS = ("clk", "pix_clk")
 LOG = """Info: Max frequency for clock 'core.clk': 90.10 MHz (FAIL at 150.00 MHz)
 Info: Max frequency for clock 'pix_clk$SRC_BUF': 300.00 MHz (PASS at 150.00 MHz)
 Info: routed
@@ -30,25 +32,28 @@ def test_every_core_has_a_goal() -> None:
     assert set(budgets()["fmax"]) == {*core_names(), "pix_clk"}
 
 
-def test_every_path_begins_and_ends_at_a_flip_flop() -> None:
-    core = load_core("video_in")
+@pytest.mark.parametrize(("name", "of_pixels"), [("video_in", "vid_data"), ("video_out", "vid_de"), ("rgb2gray", "")])
+def test_every_path_begins_and_ends_at_a_flip_flop_of_its_clock(name: str, of_pixels: str) -> None:
+    core = load_core(name)
     ports = ports_of(core, {})
-    text = harness(core, ports, {"MAX_WIDTH": 64})
-    assert "video_in #(.MAX_WIDTH(64)) core" in text
-    of_clk, of_pixels = text.split("reg [26:0] pixel_reg;")
-    assert "wire [15:0] cfg_width = in_reg[" in of_clk
-    assert "wire [23:0] vid_data = pixel_reg[" in of_pixels
+    text = harness(core, ports, {"MAX_WIDTH": 64} if name == "video_in" else {})
+    taken = {clock: text.partition(f" {clock}_out_reg <= {{")[2].partition("}")[0].split(", ") for clock in CLOCKS}
     for port in ports:
         assert f".{port.name}({port.name})" in text
+        clock = "pix_clk" if port.name.startswith(("vid_", "out_")) else "clk"
         if port.direction == "output":
-            assert "out_reg <= {" in text and port.name in text.split("out_reg <= {")[1].split("}")[0]
-    assert "get_ports pix_clk" in constraints(ports)
-    assert "pix_clk" not in constraints(ports_of(load_core("rgb2gray"), {}))
+            assert port.name in taken[clock]
+        elif port.name not in CLOCKS:
+            assert f" {port.name} = {'pixel_reg' if clock == 'pix_clk' else 'in_reg'}[" in text
+    assert ("always @(posedge pix_clk) pixel_reg" in text) == bool(of_pixels)
+    assert ("get_ports pix_clk" in constraints(ports)) == bool(of_pixels)
+    if name == "video_in":
+        assert "video_in #(.MAX_WIDTH(64)) core" in text
 
 
 def test_the_figure_is_that_after_routing(tmp_path: Path) -> None:
     tool = fake(tmp_path, f"cat <<'E'\n{LOG}E")
-    assert tool.route(tmp_path, tmp_path, 150, 1) == {"core.clk": 151.25, "pix_clk$SRC_BUF": 280.5}
+    assert tool.route(tmp_path, tmp_path, 150, 1) == {"clk": 151.25, "pix_clk": 280.5}
 
 
 def test_a_design_that_is_not_routed_has_no_figure(tmp_path: Path) -> None:
@@ -57,25 +62,70 @@ def test_a_design_that_is_not_routed_has_no_figure(tmp_path: Path) -> None:
         tool.route(tmp_path, tmp_path, 150, 1)
 
 
-def test_the_slowest_seed_counts() -> None:
-    runs = [{"core.clk": 151.0, "pix_clk": 200.0}, {"core.clk": 149.0, "pix_clk": 300.0}]
-    assert pnr.slowest(runs) == {"clk": 149.0, "pix_clk": 200.0}
+def test_the_slowest_seed_counts_and_each_must_tell_of_each_clock() -> None:
+    runs = [{"clk": 151.0, "pix_clk": 200.0}, {"clk": 149.0, "pix_clk": 300.0}]
+    assert pnr.slowest(runs, CLOCKS) == {"clk": 149.0, "pix_clk": 200.0}
+    with pytest.raises(NotRoutedError, match="does not say how fast pix_clk is"):
+        pnr.slowest([runs[0], {"clk": 149.0}], CLOCKS)
 
 
-@pytest.mark.parametrize(("mhz", "bad"), [(148.5, False), (148.4, True)])
-def test_less_than_the_goal_is_bad(mhz: float, bad: bool, tmp_path: Path) -> None:
-    tool = fake(tmp_path, f"echo \"Info: Max frequency for clock 'core.clk': {mhz} MHz (x)\"")
-    worst, found = pnr.measure("rgb2gray", tool, [1, 2])
-    assert worst == {"clk": mhz}
-    assert bool(found) is bad
+@pytest.mark.parametrize(
+    ("core", "log", "fault"),
+    [
+        ("rgb2gray", "Info: Max frequency for clock 'core.clk': 148.5 MHz (x)", ""),
+        ("rgb2gray", "Info: Max frequency for clock 'core.clk': 148.4 MHz (x)", "clk 148.4 MHz, less than 148.5"),
+        ("rgb2gray", "Info: nothing is said", "does not say how fast clk is"),
+        ("video_out", "Info: Max frequency for clock 'core.clk': 200 MHz (x)", "does not say how fast pix_clk is"),
+        ("video_out", LOG.strip(), ""),
+    ],
+)
+def test_what_is_bad(core: str, log: str, fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    clocks = CLOCKS if core == "video_out" else CLOCKS[:1]
+    monkeypatch.setattr(pnr, "ports_of", lambda _core, _parameters: [Port(name, "input", 1) for name in clocks])
+    monkeypatch.setattr(pnr, "netlist", lambda _core, _ports, folder: (folder, folder))
+    found = pnr.measure(core, fake(tmp_path, f"cat <<'E'\n{log}\nE"), [1, 2])[1]
+    assert len(found) == bool(fault)
+    assert fault in "".join(found)
 
 
-def test_without_debians_packages_it_is_skipped_with_a_sentence(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+@pytest.mark.parametrize(("tool", "machine"), [("apt-get is not here", "x86_64"), ("is riscv64", "riscv64")])
+def test_where_debians_packages_are_of_no_use_it_is_skipped_with_a_sentence(
+    tool: str, machine: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(nextpnr.platform, "machine", lambda: machine)
     monkeypatch.setattr(pnr, "FOLDER", tmp_path / "nextpnr")
-    assert nextpnr.find(tmp_path / "nextpnr") is None
     assert pnr.the_tool() is None
     (line,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith("skipped: ")]
-    assert "apt-get is not here; install nextpnr-himbaechel-xilinx yourself" in line
+    assert tool in line
+    assert "install nextpnr-himbaechel-xilinx yourself" in line
+
+
+@pytest.mark.parametrize("fault", ["update", "install", "unpack", "hollow", ""])
+def test_it_is_laid_out_whole_or_not_at_all(fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With stand-ins for apt-get and dpkg-deb, of which one fails."""
+    loader = "#!/bin/sh\necho '(Version 0.1)'\n" if fault != "hollow" else ""
+    paths = [f"usr/bin/{nextpnr.COMMAND}", nextpnr.CHIP, f"{nextpnr.LIBRARIES}/ld-linux-x86-64.so.2"]
+    unpack = "".join(f'mkdir -p "$3/{Path(path).parent}"; cp "$0.loader" "$3/{path}"\n' for path in paths)
+    tools = {
+        "apt-get": 'for a in "$@"; do case "$a" in -oDir::Cache=*) cache="${a#*=}";; esac; done\n'
+        f'case "$*" in *{fault or "never_said"}*) echo "E: no net" >&2; exit 100;; esac\n'
+        'touch "$cache/archives/one.deb"\n',
+        "dpkg-deb": unpack + ("echo no space left; exit 2\n" if fault == "unpack" else ""),
+    }
+    for name, script in tools.items():
+        (tmp_path / name).write_text(f"#!/bin/sh\n{script}")
+        (tmp_path / name).chmod(0o755)
+    (tmp_path / "dpkg-deb.loader").write_text(loader)
+    (tmp_path / "dpkg-deb.loader").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    root = tmp_path / "build/nextpnr"
+    if fault:
+        with pytest.raises(UserError):
+            nextpnr.fetch(root)
+        assert list(root.parent.iterdir()) == []
+        assert nextpnr.find_in(root) is None
+    else:
+        nextpnr.fetch(root)
+        assert nextpnr.find_in(root).version() == "0.1"
+        assert list(root.parent.iterdir()) == [root]

@@ -9,7 +9,7 @@
 // Rounding    the picture behind the text is a quarter as bright, rounded down.
 // Overflow    none: coordinates are signed, -8192 to 8191, and everything is computed wide enough for them.
 // Limits      cfg_* are sampled with the first pixel of a frame, unless cfg_hold: then the frame shows what the one before
-//             showed. The text is read as it is. Malformed frames: docs/design.md.
+//             showed. Malformed frames: docs/design.md.
 //
 // cfg_boxes holds {bottom, right, top, left} of box 3 to box 0, 14 bits each, ends included; its line lies
 // inside and is 2 pixels wide. The direction is the line from cfg_centre to cfg_tip, drawn where a pixel is at most one
@@ -28,6 +28,7 @@ module overlay #(
     input wire [ 15:0] cfg_height,
     input wire         cfg_hold,
     input wire         cfg_show_text,
+    input wire         cfg_text_bank,
     input wire         cfg_show_pad,
     input wire         cfg_show_crosshair,
     input wire [  3:0] cfg_show_boxes,
@@ -38,7 +39,7 @@ module overlay #(
     input wire [ 13:0] cfg_tip_y,
 
     input wire       text_write,
-    input wire [6:0] text_address,  // {line, column}
+    input wire [7:0] text_address,  // {bank, line, column}
     input wire [6:0] text_char,     // ASCII; below 32: nothing
 
     input  wire [23:0] s_axis_tdata,   // {R, G, B}
@@ -141,7 +142,8 @@ module overlay #(
   overlay_crosshair crosshair (
       .clk        (clk),
       .rst        (rst),
-      .sample     (advance && start && !cfg_hold),
+      .start      (advance && start),
+      .hold       (cfg_hold),
       .show       (cfg_show_crosshair),
       .half_width (cfg_width[14:1]),
       .half_height(cfg_height[14:1]),
@@ -180,6 +182,7 @@ module overlay #(
       .char   (text_char),
       .sample (advance && start && !cfg_hold),
       .show   (cfg_show_text),
+      .bank   (cfg_text_bank),
       .advance(advance),
       .x      (x_1_reg[13:1]),
       .y      (y_1_reg[13:1]),

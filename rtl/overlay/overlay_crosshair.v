@@ -2,14 +2,15 @@
 // Whether a pixel lies on the crosshair: arms of 40 pixels from the middle of the frame, 1 pixel wide.
 //
 // Latency 0 cycles from x, y. Throughput: a pixel a cycle. Border, overflow: none. Rounding: the middle is at half of
-// width and height, rounded down. Limits: what sample finds counts for the pixels from the next cycle on.
+// width and height, rounded down. Limits: what start finds counts for the pixels from the next cycle on, show unless hold.
 
 `default_nettype none
 
 module overlay_crosshair (
     input  wire               clk,
     input  wire               rst,
-    input  wire               sample,
+    input  wire               start,
+    input  wire               hold,
     input  wire               show,
     input  wire signed [13:0] half_width,
     input  wire signed [13:0] half_height,
@@ -31,10 +32,10 @@ module overlay_crosshair (
   assign covers = show_reg && (level || upright);
 
   always @(posedge clk) begin
-    if (sample) begin
-      show_reg     <= show;
+    if (start) begin
       middle_x_reg <= half_width;
       middle_y_reg <= half_height;
+      if (!hold) show_reg <= show;
     end
     if (rst) show_reg <= 1'b0;
   end

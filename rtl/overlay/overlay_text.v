@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two lines of 64 characters at the top of the frame, cells of 16x16 pixels: each pixel of the font is 2x2 of the frame.
 //
-// Latency: 2 beats from x, y to behind, ink. Throughput: a pixel a cycle. Border, rounding, overflow: none. Limits: what
-// is written while it is read may show in part; letters are capital ones; before all of it was written, show must be 0.
+// Latency: 2 beats from x, y to behind, ink. Throughput: a pixel a cycle. Border, rounding, overflow: none. Limits: the
+// bank that is shown must have been written whole; letters are capital ones.
 
 `default_nettype none
 
@@ -11,11 +11,12 @@ module overlay_text (
     input wire rst,
 
     input wire       write,
-    input wire [6:0] address,  // {line, column}
+    input wire [7:0] address,  // {bank, line, column}
     input wire [6:0] char,
 
     input wire sample,
     input wire show,
+    input wire bank,
 
     input  wire        advance,
     input  wire [13:1] x,
@@ -26,8 +27,9 @@ module overlay_text (
 
   `include "overlay_font.vh"
 
-  reg  [6:0] chars                                           [0:127];
+  reg  [6:0] chars                                           [0:255];
   reg        show_reg;
+  reg        bank_reg;
 
   // One beat later: the character, and where in it.
   reg  [6:0] char_reg;
@@ -41,10 +43,13 @@ module overlay_text (
 
   always @(posedge clk) begin
     if (write) chars[address] <= char;
-    if (sample) show_reg <= show;
+    if (sample) begin
+      show_reg <= show;
+      bank_reg <= bank;
+    end
     if (rst) show_reg <= 1'b0;
     if (advance) begin
-      char_reg   <= chars[{y[4], x[9:4]}];
+      char_reg   <= chars[{bank_reg, y[4], x[9:4]}];
       within_reg <= show_reg && x[13:10] == 4'd0 && y[13:5] == 9'd0;
       row_reg    <= y[3:1];
       column_reg <= x[3:1];

@@ -8,11 +8,12 @@
 // Border      none. Rounding: none; pixels are copied.
 // Overflow    s_axis_tready is always 1. A pixel that finds FIFO_DEPTH others waiting is lost, and with it the rest of its
 //             frame. From the first pixel that is missing or late to the end of the frame the monitor shows BLANK;
-//             frame_blank is one cycle of clk then. The next frame that starts in time is whole.
-// Limits      A frame is shown if its first pixel is there when the first de after vsync has passed the delay. For a frame
-//             to follow one that was blank, vsync and what comes between it and de must last more than DELAY, and more than
-//             FIFO_DEPTH, cycles. vsync counts by its change against its level during pixels. pix_clk may stop and come back
-//             at any time; it is at most 3 times as fast as clk. rst comes from a flip-flop.
+//             frame_blank is one cycle of clk then. The next frame that comes in time is whole.
+// Limits      A pixel is in time if it is taken 8 cycles of pix_clk and 3 of clk before its place on out_*. A frame
+//             that is not is thrown away up to the camera's next vsync; what comes after that is the next frame. DELAY is
+//             less than the time from a frame's first pixel to the next vsync. vsync counts by its change against its
+//             level during pixels. pix_clk may stop and come back at any time, and out_* stands still as long. rst comes
+//             from a flip-flop.
 
 `default_nettype none
 
@@ -61,7 +62,7 @@ module video_out #(
   reg  crossing_rst_reg;
   reg  open_reg;
   wire full;
-  wire write = s_axis_tvalid && (s_axis_tuser || open_reg);
+  wire write = s_axis_tvalid && (s_axis_tuser || open_reg) && !crossing_rst_reg;
 
   assign s_axis_tready = 1'b1;
 
@@ -120,33 +121,40 @@ module video_out #(
 
   // ---- The frame that is shown.
 
-  // SEEK: what is left of an older frame is thrown away. READY: the next word is the first pixel of the frame to come.
-  // SHOW: within a frame that is whole so far. BLANKED: within one that is not; what comes now is late and thrown away.
-  localparam [1:0] SEEK = 2'd0;
-  localparam [1:0] READY = 2'd1;
-  localparam [1:0] SHOW = 2'd2;
-  localparam [1:0] BLANKED = 2'd3;
+  reg  starts_reg;  // vsync has passed: the next pixel is the first of a frame
+  reg  shows_reg;  // within a frame that is whole so far
+  reg  stale_reg;  // a first pixel that comes now is of a frame that was given up
+  reg  later_idle_reg;
+  reg  idle_reg;
+  reg  blank_event_reg;
+  wire first = word[24];
+  wire show = word_valid && (starts_reg ? first && !stale_reg : shows_reg && !first);
+  // Pixels without their frame. Between the lines of a frame that is shown they wait for the next.
+  wire discard = word_valid && !shows_reg && (!first || stale_reg);
 
-  reg  [1:0] state_reg;
-  reg        vsync_idle_reg;
-  reg        blank_event_reg;
-  wire       first = word[24];
-  wire       between = !de && vsync != vsync_idle_reg;
-  wire       show = state_reg == READY || (state_reg == SHOW && word_valid && !first);
-
-  assign take = state_reg == BLANKED || (de ? show : state_reg == SEEK && word_valid && !first);
+  assign take = (de && show) || discard;
 
   always @(posedge pix_clk or posedge pix_rst) begin
     if (pix_rst) begin
-      state_reg       <= SEEK;
-      vsync_idle_reg  <= VSYNC_ACTIVE == 0;
+      starts_reg      <= 1'b0;
+      shows_reg       <= 1'b0;
+      stale_reg       <= 1'b1;
+      later_idle_reg  <= VSYNC_ACTIVE == 0;
+      idle_reg        <= VSYNC_ACTIVE == 0;
       blank_event_reg <= 1'b0;
     end else begin
-      if (de) vsync_idle_reg <= vsync;
-      blank_event_reg <= de && !show && state_reg != BLANKED;
-      if (de) state_reg <= show ? SHOW : BLANKED;
-      else if (state_reg == SEEK) state_reg <= word_valid && first ? READY : SEEK;
-      else if (between && state_reg != READY) state_reg <= SEEK;
+      if (vid_de) idle_reg <= vid_vsync;
+      if (de) later_idle_reg <= vsync;
+      if (de) begin
+        starts_reg <= 1'b0;
+        shows_reg  <= show;
+      end else if (vsync != later_idle_reg) begin
+        starts_reg <= 1'b1;
+        shows_reg  <= 1'b0;
+      end
+      if (de && starts_reg && !show) stale_reg <= 1'b1;
+      else if (!vid_de && vid_vsync != idle_reg) stale_reg <= 1'b0;
+      blank_event_reg <= de && !show && (starts_reg || shows_reg);
     end
   end
 

@@ -81,7 +81,7 @@ LIMITS = [
         Limit("overlay", name, 8192, 8191, "ERROR_max_width_and_max_height_must_be_at_most_8191")
         for name in ("MAX_WIDTH", "MAX_HEIGHT")
     ),
-    *limits("video_out", "DELAY", (5, 65538), "ERROR_delay_must_be_5_to_65538_cycles"),
+    *limits("video_out", "DELAY", (16, 65538), "ERROR_delay_must_be_16_to_65538_cycles"),
     Limit("video_out", "FIFO_DEPTH", 2, 4, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4"),
     Limit("video_out", "FIFO_DEPTH", 1000, 1024, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4"),
     *limits("landing_core", "CLK_PER_US", (2, 1023), "ERROR_clk_per_us_must_be_2_to_1023"),

@@ -33,15 +33,18 @@ def drawing_of(first_pixel: int) -> Drawing:
     # A mark as large as the frame would hide what is behind it.
     if centre and rng.random() < 0.5:
         centre = (min(centre[0] + 30, MOST), max(centre[1] - 30, LEAST))
-    return Drawing(boxes, centre, (place(rng), place(rng)), rng.random() < 0.3, TEXT if rng.random() < 0.3 else None)
+    text = rng.choice(TEXTS) if rng.random() < 0.3 else None
+    return Drawing(boxes, centre, (place(rng), place(rng)), rng.random() < 0.3, text)
 
 
-def _random_text() -> tuple[str, ...]:
-    rng = Random(7)
+def random_text(seed: int) -> tuple[str, ...]:
+    """All characters, in lines."""
+    rng = Random(seed)
     return tuple("".join(chr(rng.randrange(128)) for _ in range(COLUMNS)) for _ in range(LINES))
 
 
-TEXT = _random_text()
+TEXTS = (random_text(7), random_text(8))
+"""What the two banks hold."""
 CORE = VideoCore(golden=lambda image: overlay(image, drawing_of(int(image[0, 0]))), bits_in=24, reach=0, limits=LIMITS)
 
 
@@ -57,14 +60,15 @@ def show(dut: HierarchyObject, drawing: Drawing) -> None:
     dut.cfg_show_pad.value = drawing.centre is not None
     dut.cfg_show_crosshair.value = drawing.crosshair
     dut.cfg_show_text.value = drawing.text is not None
+    dut.cfg_text_bank.value = TEXTS.index(drawing.text) if drawing.text in TEXTS else getrandbits(1)
 
 
-async def write_text(dut: HierarchyObject, text: tuple[str, ...]) -> None:
-    """Write all characters."""
+async def write_text(dut: HierarchyObject, bank: int, text: tuple[str, ...]) -> None:
+    """Write all characters of a bank."""
     dut.text_write.value = 1
     for line, words in enumerate(text):
         for column, char in enumerate(words):
-            dut.text_address.value = line * COLUMNS + column
+            dut.text_address.value = (bank * LINES + line) * COLUMNS + column
             dut.text_char.value = ord(char)
             await RisingEdge(dut.clk)
     dut.text_write.value = 0
@@ -88,7 +92,8 @@ async def begin(dut: HierarchyObject, rng: Random, stall: str) -> StreamBench:
         was_first = bool(beat.user)
 
     bench.source.on_beat = on_beat
-    await write_text(dut, TEXT)
+    for bank, text in enumerate(TEXTS):
+        await write_text(dut, bank, text)
     return bench
 
 
@@ -103,7 +108,7 @@ async def frame_contract(dut: HierarchyObject, scene: str, stall: str) -> None:
 @cocotb.test()
 @cocotb.parametrize(stall=named(STALLS))
 async def every_shape(dut: HierarchyObject, stall: str) -> None:
-    """Frames large enough for the arms of the marks and for letters; the whole font once."""
+    """Frames large enough for the arms of the marks and for letters."""
     rng = Random(getrandbits(64))
     bench = await begin(dut, rng, stall)
     width, height = min(LIMITS.max_width, 90), min(LIMITS.max_height, 36)
@@ -112,45 +117,83 @@ async def every_shape(dut: HierarchyObject, stall: str) -> None:
         bench.sink.taken.clear()
 
 
+@cocotb.test(skip=LIMITS.max_height < 90)
+async def crosshair_to_its_ends(dut: HierarchyObject) -> None:
+    bench = await begin(dut, Random(getrandbits(64)), "full_speed")
+    frame = random_frame(bench.rng, 87, 90, 24)
+    frame[0, 0] = next(p for p in range(1 << 24) if drawing_of(p).crosshair and not any(drawing_of(p).boxes))
+    await send_and_check(bench, CORE, frame_beats(frame))
+
+
+def showing(bench: StreamBench, drawing: Drawing) -> VideoCore:
+    """Let all frames from now on offer a drawing; the core that draws it."""
+    bench.source.on_beat = lambda beat: (bench._set_size(beat), show(bench.dut, drawing) if beat.user else None)
+    return VideoCore(lambda image: overlay(image, drawing), 24, 0, LIMITS)
+
+
 @cocotb.test()
 async def every_letter(dut: HierarchyObject) -> None:
     """All 128 codes, on lines as wide as the frame can be."""
-    rng = Random(getrandbits(64))
-    bench = await begin(dut, rng, "full_speed")
+    bench = await begin(dut, Random(getrandbits(64)), "full_speed")
     codes = "".join(chr(code) for code in range(128))
     text = (codes[:COLUMNS], codes[COLUMNS:])
-    await write_text(dut, text)
-    drawing = Drawing(text=text)
-    bench.source.on_beat = lambda beat: (show(dut, drawing), bench._set_size(beat))
-    core = VideoCore(lambda image: overlay(image, drawing), 24, 0, LIMITS)
+    for bank in range(2):
+        await write_text(dut, bank, text)
     size = min(LIMITS.max_width, COLUMNS * 16 + 3), min(LIMITS.max_height, LINES * 16 + 2)
-    await send_and_check(bench, core, frame_beats(random_frame(rng, *size, 24)))
+    await send_and_check(bench, showing(bench, Drawing(text=text)), frame_beats(random_frame(bench.rng, *size, 24)))
 
 
 @cocotb.test()
-async def held_drawing_stays(dut: HierarchyObject) -> None:
-    """Held, a frame shows what the one before showed, also if that one was cut off; after a reset nothing."""
+async def a_bank_is_written_while_the_other_is_shown(dut: HierarchyObject) -> None:
+    bench = await begin(dut, Random(getrandbits(64)), "full_speed")
+    size = min(LIMITS.max_width, 90), min(LIMITS.max_height, 36)
+    beats = frame_beats(random_frame(bench.rng, *size, 24))
+    writing = cocotb.start_soon(write_text(dut, 1, TEXTS[0]))
+    await send_and_check(bench, showing(bench, Drawing(text=TEXTS[0])), beats)
+    await writing
+    bench.sink.taken.clear()
+    showing(bench, Drawing(text=TEXTS[1]))
+    # The other bank holds by now what the first does.
+    core = VideoCore(lambda image: overlay(image, Drawing(text=TEXTS[0])), 24, 0, LIMITS)
+    await send_and_check(bench, core, beats)
+
+
+@cocotb.test()
+@cocotb.parametrize(stall=named(STALLS))
+async def held_drawing_stays(dut: HierarchyObject, stall: str) -> None:
+    """Held, a frame shows what was shown last, also by one that was cut off; after a reset nothing."""
     rng = Random(getrandbits(64))
-    bench = await begin(dut, rng, "idle_backpressure")
-    shown = Drawing()
-    for index in range(24):
-        if index % 8 == 0:
-            shown = Drawing()
-            await bench.reset()
-        hold = index % 8 == 0 or rng.random() < 0.6
-        offered = drawing_of(rng.getrandbits(24))
-        shown = shown if hold else offered
-        bench.source.on_beat = lambda beat, hold=hold, offered=offered: (
-            bench._set_size(beat),
-            show(dut, offered),
-            setattr(dut.cfg_hold, "value", hold),
-        )
-        core = VideoCore(lambda image, shown=shown: overlay(image, shown), 24, 0, LIMITS)
-        beats = frame_beats(random_frame(rng, 17, 11, 24))
-        cut = beats[: rng.randint(1, 60)] if rng.random() < 0.3 else []
-        bench.errors.count = 0
-        await send_and_check(bench, core, cut + beats)
+    bench = await begin(dut, rng, stall)
+    for _ in range(3):
+        await bench.reset()
+        shown, expected, beats, held = Drawing(), {}, [], {}
+        for index in range(24):
+            size = rng.choice([(1, 1), (2, 1), (1, 2), (3, 2), (17, 11), (12, 9)])
+            frame = random_frame(rng, *size, 24)
+            first = int(frame[0, 0])
+            held[first] = index == 0 or rng.random() < 0.5
+            shown = shown if held[first] else drawing_of(first)
+            expected[first] = shown
+            whole = frame_beats(frame)
+            beats += whole[: rng.randint(1, len(whole))] if rng.random() < 0.4 else whole
+        await _send_held(bench, beats, held, expected)
         bench.sink.taken.clear()
+
+
+async def _send_held(
+    bench: StreamBench, beats: list[Beat], held: dict[int, bool], expected: dict[int, Drawing]
+) -> None:
+    """Send frames that each offer a drawing; whether it is held, and what is shown, goes by their first pixel."""
+
+    def on_beat(beat: Beat) -> None:
+        bench._set_size(beat)
+        if beat.user:
+            show(bench.dut, drawing_of(beat.data))
+            bench.dut.cfg_hold.value = held[beat.data]
+
+    bench.source.on_beat = on_beat
+    core = VideoCore(lambda image: overlay(image, expected[int(image[0, 0])]), 24, 0, LIMITS)
+    await send_and_check(bench, core, beats)
 
 
 @cocotb.test()

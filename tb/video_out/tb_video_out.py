@@ -21,14 +21,20 @@ ACTIVE = parameter("VSYNC_ACTIVE", 1)
 BLANK = 0x202020
 LAG = DELAY // 3
 """Cycles of pix_clk that the stream is usually behind the camera."""
+CLOCK_STOP = 150
+"""Cycles of clk for which pix_clk stands still, where it does."""
 
 
 @dataclass(frozen=True)
 class Sent:
-    """What comes of one frame on the stream: so many pixels from the first (None = all), from `lag` cycles on."""
+    """What comes of one frame on the stream: so many pixels from the first (None = all), from `lag` cycles on.
+
+    They come no faster than the camera's, unless `fast`.
+    """
 
     count: int | None = None
     lag: int = LAG
+    fast: bool = False
 
 
 @dataclass(frozen=True)
@@ -68,14 +74,14 @@ class Bench:
         for _ in range(10):
             await RisingEdge(self.dut.pix_clk)
 
-    async def play(self, raw: Raw, frames: list[list[list[int]]], sent: list[Sent], stop: int = 0) -> None:
+    async def play(self, raw: Raw, frames: list[list[list[int]]], sent: list[Sent], stops: float = 0.0) -> None:
         """Play the camera to its end, and the delay after it; the stream sends the frames as `sent` says.
 
         Args:
             raw: the camera.
             frames: RGB lines of each frame in it.
             sent: what comes of each.
-            stop: let pix_clk stand still for so many cycles of clk after a third of the samples.
+            stops: how likely pix_clk stands still after a sample.
         """
         starts = [at for at, de in enumerate(raw.de) if de and self._is_first(raw, at)]
         assert len(starts) == len(frames)
@@ -93,14 +99,32 @@ class Bench:
             text = [str(signal.value) for signal in out]
             assert not set("".join(text)) - {"0", "1"}, f"the monitor gets {text} at sample {at}; {where()}"
             self.seen.append(Sample(*(int(bits, 2) for bits in text)))
-            if stop and at == len(raw.de) // 3:
-                self._pix_clock.stop()
-                for _ in range(stop):
-                    await RisingEdge(self.dut.clk)
-                self._pix_clock.start(start_high=False)
+            if self.rng.random() < stops:
+                await self.stop_clock(CLOCK_STOP)
         await self._running
         for _ in range(10):
             await RisingEdge(self.dut.clk)
+
+    async def stop_clock(self, cycles: int) -> None:
+        """Let pix_clk stand still for so many cycles of clk; the monitor stands still with it."""
+        self._pix_clock.stop()
+        for _ in range(cycles):
+            await RisingEdge(self.dut.clk)
+        self._pix_clock.start(start_high=False)
+
+    async def reset_while_the_clock_stands(self) -> None:
+        """Reset and let go again while pix_clk stands still."""
+        self._pix_clock.stop()
+        self.dut.rst.value = 1
+        for _ in range(5):
+            await RisingEdge(self.dut.clk)
+        self.dut.rst.value = 0
+        for _ in range(5):
+            await RisingEdge(self.dut.clk)
+        self.blanks.count = 0
+        self._pix_clock.start(start_high=False)
+        for _ in range(10):
+            await RisingEdge(self.dut.pix_clk)
 
     def stop(self) -> None:
         """Let camera and stream fall silent, after `play` was cancelled."""
@@ -133,7 +157,7 @@ class Bench:
                 assert self.dut.s_axis_tready.value == 1, f"the stream is stalled; {where()}"
                 # No faster than the camera, or the FIFO would have to hold the difference.
                 self._idle()
-                while how.count is None and self._at < start + how.lag + index:
+                while not how.fast and self._at < start + how.lag + index:
                     await edge
 
     def _idle(self) -> None:
@@ -150,9 +174,10 @@ class Bench:
             expected: the pixels of each frame, BLANK where it must be blank.
         """
         shown: list[list[int]] = []
-        after_sync = True
+        after_sync = False
         for at, sample in enumerate(self.seen):
-            wanted = (0, sample.hsync, 1 - ACTIVE)
+            # What was before the camera began.
+            wanted = (0, sample.hsync, sample.vsync)
             if at >= DELAY:
                 wanted = (raw.de[at - DELAY], self.hsync[at - DELAY], raw.vsync[at - DELAY])
             got = (sample.de, sample.hsync, sample.vsync)
@@ -163,7 +188,7 @@ class Bench:
                 shown[-1].append(sample.data)
             else:
                 assert sample.data == 0, f"{sample.data:06X} in blanking at sample {at}; {where()}"
-            after_sync = (after_sync or sample.vsync == ACTIVE) and not sample.de
+            after_sync = (after_sync or (at >= DELAY and sample.vsync == raw.active)) and not sample.de
         assert len(shown) == len(expected), f"{len(shown)} frames, expected {len(expected)}; {where()}"
         for index, (got, wanted) in enumerate(zip(shown, expected, strict=True)):
             bad = [at for at, pair in enumerate(zip(got, wanted, strict=True)) if pair[0] != pair[1]]
@@ -173,9 +198,11 @@ class Bench:
             )
 
 
-def camera(rng: Random, sizes: list[tuple[int, int]], shape: Blanking) -> tuple[Raw, list[list[list[int]]]]:
-    """Raw video of random frames, and their lines."""
-    raw, frames = Raw(active=ACTIVE), [lines_of(rng, *size) for size in sizes]
+def camera(
+    rng: Random, sizes: list[tuple[int, int]], shape: Blanking, active: int = ACTIVE
+) -> tuple[Raw, list[list[list[int]]]]:
+    """Raw video of random frames, with this level of vsync, and their lines."""
+    raw, frames = Raw(active=active), [lines_of(rng, *size) for size in sizes]
     for lines in frames:
         raw.frame(lines, shape)
     raw.blank(3, sync=True)
