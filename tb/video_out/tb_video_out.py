@@ -10,6 +10,7 @@ from cocotb.handle import HierarchyObject
 from cocotb.triggers import RisingEdge
 from cocotb.types import LogicArray
 
+from golden.video_out import shown, syncs
 from tb.common.run import four_state, parameter, where
 from tb.common.stream import PulseCounter
 from tb.video_in.tb_video_in import Blanking, Raw, lines_of
@@ -18,7 +19,6 @@ CLK_NS = 10.0
 DELAY = parameter("DELAY", 13200)
 FIFO_DEPTH = parameter("FIFO_DEPTH", 16384)
 ACTIVE = parameter("VSYNC_ACTIVE", 1)
-BLANK = 0x202020
 LAG = DELAY // 3
 """Cycles of pix_clk that the stream is usually behind the camera."""
 CLOCK_STOP = 150
@@ -173,24 +173,23 @@ class Bench:
             raw: the camera.
             expected: the pixels of each frame, BLANK where it must be blank.
         """
-        shown: list[list[int]] = []
+        monitor: list[list[int]] = []
         after_sync = False
-        for at, sample in enumerate(self.seen):
-            # What was before the camera began.
-            wanted = (0, sample.hsync, sample.vsync)
-            if at >= DELAY:
-                wanted = (raw.de[at - DELAY], self.hsync[at - DELAY], raw.vsync[at - DELAY])
+        of_camera = list(zip(raw.de, self.hsync, raw.vsync, strict=True))
+        for at, (sample, wanted) in enumerate(zip(self.seen, syncs(of_camera, DELAY, (0, 0, 0)), strict=True)):
             got = (sample.de, sample.hsync, sample.vsync)
-            assert got == wanted, f"(de, hsync, vsync) {got} at sample {at}, expected {wanted}; {where()}"
+            # Before the camera there was blanking, with syncs of any kind.
+            good = got == wanted if at >= DELAY else not sample.de
+            assert good, f"(de, hsync, vsync) {got} at sample {at}, expected {wanted}; {where()}"
             if sample.de:
                 if after_sync:
-                    shown.append([])
-                shown[-1].append(sample.data)
+                    monitor.append([])
+                monitor[-1].append(sample.data)
             else:
                 assert sample.data == 0, f"{sample.data:06X} in blanking at sample {at}; {where()}"
             after_sync = (after_sync or (at >= DELAY and sample.vsync == raw.active)) and not sample.de
-        assert len(shown) == len(expected), f"{len(shown)} frames, expected {len(expected)}; {where()}"
-        for index, (got, wanted) in enumerate(zip(shown, expected, strict=True)):
+        assert len(monitor) == len(expected), f"{len(monitor)} frames, expected {len(expected)}; {where()}"
+        for index, (got, wanted) in enumerate(zip(monitor, expected, strict=True)):
             bad = [at for at, pair in enumerate(zip(got, wanted, strict=True)) if pair[0] != pair[1]]
             assert not bad, (
                 f"frame {index}, pixel {bad[0]}: expected {wanted[bad[0]]:06X}, got {got[bad[0]]:06X}; "
@@ -211,6 +210,4 @@ def camera(
 
 def pixels_of(lines: list[list[int]], whole: int | None = None) -> list[int]:
     """The pixels that the monitor must get of a frame of which so many came in time."""
-    pixels = [pixel for line in lines for pixel in line]
-    count = len(pixels) if whole is None else whole
-    return pixels[:count] + [BLANK] * (len(pixels) - count)
+    return shown([pixel for line in lines for pixel in line], whole)
