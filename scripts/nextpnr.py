@@ -20,7 +20,8 @@ COMMAND = "nextpnr-himbaechel-xilinx"
 DEVICE = "xc7z020clg400-1"
 CHIP = "usr/share/nextpnr/himbaechel/xilinx/chipdb-xc7z020.bin"
 LIBRARIES = "usr/lib/x86_64-linux-gnu"
-SID = "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian sid main\n"
+SOURCES = Path("/etc/apt")
+SID = "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] {archive} sid main\n"
 MHZ = re.compile(r"Max frequency for clock '([^']*)': ([0-9.]+) MHz")
 
 
@@ -108,6 +109,20 @@ def why_not_here() -> str:
     return f"{missing[0]} is not here" if missing else ""
 
 
+def archive() -> str:
+    """Where this machine has its Debian packages from.
+
+    Raises:
+        UserError: Its sources of packages name no archive of Debian.
+    """
+    for path in [SOURCES / "sources.list", *sorted((SOURCES / "sources.list.d").glob("*"))]:
+        text = path.read_text(encoding="utf-8") if path.is_file() else ""
+        found = re.search(r"^[^#\n]*?(\w+://\S+/debian)/?\s", text, re.MULTILINE)
+        if found:
+            return found[1]
+    raise UserError(f"the sources of packages in {SOURCES} name no archive of Debian; install {COMMAND} yourself.")
+
+
 def fetch(root: Path) -> None:
     """Lay the packages of Debian sid out in a folder (24 MB to load, 285 MB on disk): all of it, or nothing.
 
@@ -132,7 +147,7 @@ def _lay_out(apt: Path, root: Path) -> None:
     """Load the packages, in a folder of apt's own, and unpack them."""
     for folder in ("state/lists/partial", "cache/archives/partial", "none"):
         (apt / folder).mkdir(parents=True)
-    (apt / "sources.list").write_text(SID)
+    (apt / "sources.list").write_text(SID.format(archive=archive()))
     (apt / "status").touch()
     settings = {
         "Dir::State": apt / "state",

@@ -101,6 +101,24 @@ def test_where_debians_packages_are_of_no_use_it_is_skipped_with_a_sentence(
     assert "install nextpnr-himbaechel-xilinx yourself" in line
 
 
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("sources.list", "# deb x://old/debian sid main\ndeb x://host/debian bookworm main\n"),
+        ("sources.list.d/debian.sources", "Types: deb\nURIs: x://host/debian/\nSuites: bookworm\n"),
+    ],
+)
+def test_the_archive_is_that_of_the_machine(
+    file: str, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(nextpnr, "SOURCES", tmp_path)
+    with pytest.raises(UserError, match="name no archive of Debian"):
+        nextpnr.archive()
+    (tmp_path / file).parent.mkdir(exist_ok=True)
+    (tmp_path / file).write_text(text)
+    assert nextpnr.archive() == "x://host/debian"
+
+
 @pytest.mark.parametrize("fault", ["update", "install", "unpack", "hollow", ""])
 def test_it_is_laid_out_whole_or_not_at_all(fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With stand-ins for apt-get and dpkg-deb, of which one fails."""
@@ -119,6 +137,7 @@ def test_it_is_laid_out_whole_or_not_at_all(fault: str, tmp_path: Path, monkeypa
     (tmp_path / "dpkg-deb.loader").write_text(loader)
     (tmp_path / "dpkg-deb.loader").chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    monkeypatch.setattr(nextpnr, "archive", lambda: "x://host/debian")
     root = tmp_path / "build/nextpnr"
     if fault:
         with pytest.raises(UserError):
