@@ -11,7 +11,7 @@ import numpy as np
 
 from golden import pad_geometry as pad
 from golden.overlay import Drawing, overlay
-from scripts.errors import run_main
+from scripts.errors import UserError, run_main
 from sim.world.clip import demo_clip
 from sim.world.pose import project_pad
 from tb.common.cores import ROOT
@@ -57,7 +57,8 @@ def main() -> int:
     drawn = overlay(rgb[..., 0] << 16 | rgb[..., 1] << 8 | rgb[..., 2], drawing)
     bgr = np.stack([drawn & 255, drawn >> 8 & 255, drawn >> 16], axis=-1).astype(np.uint8)
     # Half as large: it is a picture of a page.
-    cv2.imwrite(str(PICTURE), cv2.resize(bgr, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA))
+    if not cv2.imwrite(str(PICTURE), cv2.resize(bgr, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)):
+        raise UserError(f"{PICTURE} cannot be written; see that its folder is there.")
     return 0
 
 
