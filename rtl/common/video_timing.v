@@ -29,21 +29,25 @@ module video_timing #(
 
   localparam [31:0] LAST_X = H_TOTAL - 1;
   localparam [31:0] LAST_Y = V_TOTAL - 1;
+  localparam [31:0] COLUMNS = WIDTH;
+  localparam [31:0] ROWS = HEIGHT;
   localparam [31:0] H_SYNC_FROM = WIDTH + H_FRONT;
   localparam [31:0] H_SYNC_TO = WIDTH + H_FRONT + H_SYNC;
   localparam [31:0] V_SYNC_FROM = HEIGHT + V_FRONT;
   localparam [31:0] V_SYNC_TO = HEIGHT + V_FRONT + V_SYNC;
+  localparam H_LEAST = WIDTH + H_FRONT + H_SYNC;
+  localparam V_LEAST = HEIGHT + V_FRONT + V_SYNC;
 
   generate
-    if (WIDTH < 1 || H_FRONT < 0 || H_SYNC < 1 || H_TOTAL < WIDTH + H_FRONT + H_SYNC || H_TOTAL > 65535) begin : g_line
+    if (WIDTH < 1 || H_FRONT < 0 || H_SYNC < 1 || H_TOTAL < H_LEAST || H_TOTAL > 65535) begin : g_line
       ERROR_a_line_must_hold_its_pixels_and_its_sync_in_at_most_65535_cycles error_instance ();
     end
-    if (HEIGHT < 1 || V_FRONT < 0 || V_SYNC < 1 || V_TOTAL < HEIGHT + V_FRONT + V_SYNC || V_TOTAL > 65535) begin : g_frame
+    if (HEIGHT < 1 || V_FRONT < 0 || V_SYNC < 1 || V_TOTAL < V_LEAST || V_TOTAL > 65535) begin : g_frame
       ERROR_a_frame_must_hold_its_lines_and_its_sync_in_at_most_65535_lines error_instance ();
     end
   endgenerate
 
-  assign de = !pix_rst && x < WIDTH && y < HEIGHT;
+  assign de = !pix_rst && x < COLUMNS[15:0] && y < ROWS[15:0];
   assign hsync = x >= H_SYNC_FROM[15:0] && x < H_SYNC_TO[15:0];
   assign vsync = y >= V_SYNC_FROM[15:0] && y < V_SYNC_TO[15:0];
 
