@@ -2,7 +2,7 @@
 // Which clock pixels run on, and which source gives them: changes both only while the transmitter is held in reset and
 // the pixels are blanked, and lets go again HOLD_US after all is steady. Never gives pixels of another source than wanted.
 //
-// On want != source, or when the clock in force loses its lock: hold rises in the same cycle as it is seen. From QUIET_US
+// On want != source, or when the clock in force loses its lock: hold rises with the next clock. From QUIET_US
 // of hold on, source and select_local become what is wanted, if the wanted clock is locked; until it is, they stay and
 // hold stays 1. hold falls HOLD_US after the last of: change of source, of want, return of the lock.
 // ignore_* are for a clock switch that waits for an edge of the clock it leaves: 1 for a clock without lock, and for the
