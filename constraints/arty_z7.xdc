@@ -69,12 +69,12 @@ set_clock_groups -asynchronous \
     -group [get_clocks -include_generated_clocks hdmi_rx_clk] \
     -group [get_clocks -include_generated_clocks sysclk_125]
 
-# 200 MHz of the receiver: a reset from clk and a lock to it, each with its synchroniser; the rest is inside the receiver.
+# 200 MHz of the receiver: a reset from clk and a lock to it, each with its synchroniser; the rest is inside of it.
 set_clock_groups -asynchronous -group [get_clocks clk_fpga_1] -group [get_clocks clk]
 set_clock_groups -asynchronous \
     -group [get_clocks clk_fpga_1] -group [get_clocks -include_generated_clocks hdmi_rx_clk]
 
-# ---- Crossings. Those between clk and pix_clk are in video_in.xdc; here the same for the other clock of the same wires.
+# ---- Crossings. Those of clk and pix_clk are in video_in.xdc; here the same for the other clock of the same wires.
 
 set_max_delay -datapath_only -from [get_clocks clk] -to [get_clocks pix_clk_local] 10.000
 set_max_delay -datapath_only -from [get_clocks pix_clk_local] -to [get_clocks clk] 10.000

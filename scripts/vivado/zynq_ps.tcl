@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The block design zynq_ps: the processor, and what turns its AXI3 ports into those of the cores. arty_z7_top instantiates
-# it; tb/top/vendor/zynq_ps.v is its list of ports, and a test compares the two.
+# The block design zynq_ps: the processor, and what turns its AXI3 ports into those of the cores. arty_z7_top
+# instantiates it; tb/top/vendor/zynq_ps.v is its list of ports, and a test compares the two.
 
 # An AXI interconnect of one clock between what is named, with `masters` outputs.
 proc make_interconnect {name masters} {
@@ -54,7 +54,7 @@ proc join_memory {name access hp} {
     connect_bd_intf_net [get_bd_intf_ports $name] [get_bd_intf_pins ${name}_join/S00_AXI]
     connect_bd_intf_net [get_bd_intf_pins ${name}_join/M00_AXI] [get_bd_intf_pins ps7/S_AXI_$hp]
     connect_bd_net [get_bd_pins ps7/FCLK_CLK0] [get_bd_pins ps7/S_AXI_${hp}_ACLK]
-    assign_bd_address -target_address_space [get_bd_addr_spaces /$name] -offset 0x00000000 -range 512M \
+    assign_bd_address -target_address_space [get_bd_addr_spaces $name] -offset 0x00000000 -range 512M \
         [get_bd_addr_segs ps7/S_AXI_$hp/${hp}_DDR_LOWOCM]
 }
 
