@@ -34,6 +34,7 @@ from tb.video_in.tb_video_in import FAULTS, Raw, model, spoil
 
 LIMIT_US = 5000  # of simulated time; no test comes near
 WIDE = MAX_WIDTH > 128  # the build with two windows, for what needs them
+SMALLEST = MAX_WIDTH == 16  # the build for what takes many milliseconds
 
 # How many times a frame takes the memory sleeps (a whole frame and parts of two others, or more), the greatest number
 # of shapes a frame, its size, whether that must cost frames: what waits fits into the queue of ccl, stalls ccl within a
@@ -55,7 +56,7 @@ def weather_bench(dut: HierarchyObject, weather: str) -> Bench:
     return bench
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def registers_tell_what_was_built(dut: HierarchyObject) -> None:
     bench = Bench(dut)
     await bench.reset()
@@ -74,7 +75,7 @@ async def registers_tell_what_was_built(dut: HierarchyObject) -> None:
     assert least < second - first < most, f"time went on by {second - first}, not {least} to {most}; {where()}"
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def registers_hold_what_is_written(dut: HierarchyObject) -> None:
     """Any value, in any order; an address beyond the registers is refused."""
     bench = Bench(dut)
@@ -100,7 +101,7 @@ async def registers_hold_what_is_written(dut: HierarchyObject) -> None:
             assert answer.resp == AxiResp.SLVERR, f"address {address:#x} answers {answer.resp}; {where()}"
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def any_least_area(dut: HierarchyObject) -> None:
     """A least area of all 32 bits, with frames of any size, reaches the labelling and the header."""
     bench = Bench(dut)
@@ -120,7 +121,7 @@ async def any_least_area(dut: HierarchyObject) -> None:
         await bench.check_ring(published)
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def too_little_blanking_overflows(dut: HierarchyObject) -> None:
     """Frames without blanking overflow the FIFO while borders are flushed: counted, told; a later frame is whole."""
     bench = Bench(dut)
@@ -146,7 +147,7 @@ async def too_little_blanking_overflows(dut: HierarchyObject) -> None:
     assert told == overflows, f"the record of frame {number} tells of {told} overflows, not {overflows}; {where()}"
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def frames_become_records(dut: HierarchyObject) -> None:
     """More frames than the ring has buffers, with a memory that answers late and unevenly."""
     bench = weather_bench(dut, "stormy")
@@ -170,7 +171,7 @@ async def frames_become_records(dut: HierarchyObject) -> None:
         await ClockCycles(dut.clk, 4)
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 @cocotb.parametrize(sleep=list(SLEEPS))
 async def each_record_tells_of_its_own_frame(dut: HierarchyObject, sleep: str) -> None:
     """The memory takes nothing for some frames: those that got through are told of rightly, the others are counted."""
@@ -216,7 +217,7 @@ async def each_record_tells_of_its_own_frame(dut: HierarchyObject, sleep: str) -
     await bench.check_ring(published, unwritten=bench.invalidated() - len(published))
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def next_frame_begins_while_one_is_labelled(dut: HierarchyObject) -> None:
     """With a line of blanking a frame begins before the last lines of the one before have left the filters."""
     bench = Bench(dut)
@@ -242,7 +243,7 @@ async def next_frame_begins_while_one_is_labelled(dut: HierarchyObject) -> None:
         published.append(expected)
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def configuration_counts_from_the_next_frame(dut: HierarchyObject) -> None:
     """Registers are written while a frame passes; size, polarity, factor and least area change for the next one."""
     bench = Bench(dut)
@@ -304,7 +305,7 @@ async def flat_windows_follow_their_neighbour(dut: HierarchyObject) -> None:
     assert any(found) and not all(found[1:]), f"the limit makes no difference: {found}; {where()}"
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def malformed_frames_leave_no_record(dut: HierarchyObject) -> None:
     """A malformed frame of each kind between whole ones: no record of it, the next one right, its thresholds stale."""
     bench = Bench(dut)
@@ -342,7 +343,7 @@ async def malformed_frames_leave_no_record(dut: HierarchyObject) -> None:
     await bench.check_ring(published, unwritten=bench.invalidated() - len(published))
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 @cocotb.parametrize(weather=list(WEATHER))
 async def write_errors_cost_one_frame(dut: HierarchyObject, weather: str) -> None:
     bench = weather_bench(dut, weather)
@@ -365,7 +366,7 @@ async def write_errors_cost_one_frame(dut: HierarchyObject, weather: str) -> Non
     assert await bench.read(regs.IRQ_STATUS_OFFSET) & regs.IRQ_STATUS_AXI_ERROR_MASK
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def altitude_goes_into_the_record(dut: HierarchyObject) -> None:
     """A frame while the LiDAR is on but has said nothing, then one after a reading."""
     bench = Bench(dut)
@@ -390,7 +391,7 @@ async def altitude_goes_into_the_record(dut: HierarchyObject) -> None:
     await bench.check_ring(published)
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=not SMALLEST)
 async def lidar_faults_interrupt(dut: HierarchyObject) -> None:
     """A sensor that says nothing is a fault, one that is switched off is none, one that gives only glitches is."""
     bench = Bench(dut, watched=False)
@@ -428,7 +429,7 @@ async def lidar_faults_interrupt(dut: HierarchyObject) -> None:
     await expect(fault, "after 63 ms of glitches")
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 @cocotb.parametrize(weather=list(WEATHER))
 async def reset_in_mid_frame_forgets_everything(dut: HierarchyObject, weather: str) -> None:
     bench = weather_bench(dut, weather)
@@ -450,7 +451,7 @@ async def reset_in_mid_frame_forgets_everything(dut: HierarchyObject, weather: s
         assert not bench.frame_errors, f"a core told of a frame from before the reset; {where()}"
 
 
-@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE)
+@cocotb.test(timeout_time=LIMIT_US, timeout_unit="us", skip=WIDE or SMALLEST)
 async def latency_is_as_documented(dut: HierarchyObject) -> None:
     """From the last pixel at the pins to the interrupt: a frame without an object, then one with one."""
     _, lines, least, most, an_object, memory_clocks = page_figures("landing_core")
