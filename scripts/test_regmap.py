@@ -4,14 +4,17 @@
 import re
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
+from golden.generated import display_regs
 from golden.generated import landing_regs as regs
+from golden.registers import Register
 from scripts.errors import UserError
-from scripts.regmap.generate import EXPORTERS, write_all
-from scripts.regmap.model import SOURCE, load
+from scripts.regmap.generate import EXPORTERS, LANDING, write_all
+from scripts.regmap.model import Source, load
 
 ROOT = Path(__file__).resolve().parents[1]
 STRUCTS = {"landing_result_header": regs.HEADER_DTYPE, "landing_object": regs.OBJECT_DTYPE}
@@ -21,7 +24,7 @@ def test_generated_files_are_current(tmp_path: Path) -> None:
     """Regenerating changes nothing."""
     write_all(ROOT, tmp_path)
     old = [name for name in EXPORTERS if (ROOT / name).read_text() != (tmp_path / name).read_text()]
-    assert not old, f"{', '.join(old)} differ from {SOURCE}; run make regmap and commit"
+    assert not old, f"{', '.join(old)} differ from their .rdl; run make regmap and commit"
 
 
 def test_the_command_names_files_as_the_project_does(tmp_path: Path) -> None:
@@ -31,17 +34,23 @@ def test_the_command_names_files_as_the_project_does(tmp_path: Path) -> None:
         assert run.stdout.splitlines() == [prefix + name for name in EXPORTERS]
 
 
+def named(prefix: str, registers: Sequence[Register]) -> dict[str, int]:
+    """The constants of C for these registers, with the values that Python has."""
+    constants = {}
+    for register in registers:
+        constants[f"{prefix}_REG_{register.name}_OFFSET"] = register.offset
+        for field in register.fields:
+            name = f"{prefix}_REG_{register.name}_{field.name.upper()}"
+            constants[f"{name}_MASK"] = ((1 << field.width) - 1) << field.lsb
+            constants[f"{name}_SHIFT"] = field.lsb
+            if field.access != "ro":
+                constants[f"{name}_RESET"] = field.reset
+    return constants
+
+
 def test_c_and_python_agree(tmp_path: Path) -> None:
     """A C program prints offsets, sizes, masks and constants; each equals the Python one."""
-    expected = {}
-    for register in regs.REGISTERS:
-        expected[f"LANDING_REG_{register.name}_OFFSET"] = register.offset
-        for field in register.fields:
-            prefix = f"LANDING_REG_{register.name}_{field.name.upper()}"
-            expected[f"{prefix}_MASK"] = ((1 << field.width) - 1) << field.lsb
-            expected[f"{prefix}_SHIFT"] = field.lsb
-            if field.access != "ro":
-                expected[f"{prefix}_RESET"] = field.reset
+    expected = named("LANDING", regs.REGISTERS) | named("DISPLAY", display_regs.REGISTERS)
     for struct, dtype in STRUCTS.items():
         expected[f"sizeof(struct {struct})"] = dtype.itemsize
         for name in dtype.names:
@@ -63,9 +72,8 @@ def test_c_and_python_agree(tmp_path: Path) -> None:
     }
     prints = "\n".join(f'    printf("%lu\\n", (unsigned long)({expression}));' for expression in expected)
     source = tmp_path / "print.c"
-    source.write_text(
-        f'#include "landing_regs.h"\n#include <stdio.h>\nint main(void)\n{{\n{prints}\n    return 0;\n}}\n'
-    )
+    headers = "".join(f"#include {name}\n" for name in ('"display_regs.h"', '"landing_regs.h"', "<stdio.h>"))
+    source.write_text(f"{headers}int main(void)\n{{\n{prints}\n    return 0;\n}}\n")
     program = tmp_path / "print"
     include = f"-I{ROOT / 'firmware/generated'}"
     subprocess.run(["gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", include, source, "-o", program], check=True)
@@ -97,7 +105,7 @@ def test_verilog_and_python_agree() -> None:
 
 def test_names_of_registers_and_bits_match_status_and_enable() -> None:
     """An interrupt has the same name and place in IRQ_STATUS and IRQ_ENABLE."""
-    registers = {register.name: register for register in load(ROOT / SOURCE).registers}
+    registers = {register.name: register for register in load(ROOT, LANDING).registers}
     places = [[(field.name, field.lsb) for field in registers[name].fields] for name in ("IRQ_STATUS", "IRQ_ENABLE")]
     assert places[0] == places[1]
 
@@ -111,9 +119,9 @@ def test_names_of_registers_and_bits_match_status_and_enable() -> None:
 )
 def test_wrong_source_is_one_sentence(tmp_path: Path, good: str, bad: str, sentence: str) -> None:
     """Invalid SystemRDL, and a field kind without exporter, are refused with what is wrong."""
-    text = (ROOT / SOURCE).read_text()
+    text = (ROOT / LANDING.path).read_text()
     assert good in text
     source = tmp_path / "broken.rdl"
     source.write_text(text.replace(good, bad, 1))
     with pytest.raises(UserError, match=sentence):
-        load(source)
+        load(tmp_path, Source(source.name, LANDING.module, LANDING.ring))

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Registers: byte offsets from the base of landing_core; fields as masks in place.
+// Registers: byte offsets from their base; fields as masks in place.
 #define LANDING_REG_ID_OFFSET 0x00u
 #define LANDING_REG_ID_VALUE_MASK 0xffffffffu
 #define LANDING_REG_ID_VALUE_SHIFT 0u

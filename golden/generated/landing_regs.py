@@ -1,28 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generated from rtl/landing_regs/landing_core.rdl by python -m scripts.regmap. Do not edit."""
 
-from typing import NamedTuple
-
 import numpy as np
 
-
-class Field(NamedTuple):
-    """Bits of a register; access is "ro", "constant", "rw" or "w1c"; reset is 0 where hardware gives the value."""
-
-    name: str
-    lsb: int
-    width: int
-    access: str
-    reset: int
-
-
-class Register(NamedTuple):
-    """One 32-bit register at a byte offset."""
-
-    name: str
-    offset: int
-    fields: tuple[Field, ...]
-
+from golden.registers import Field, Register
 
 ID_OFFSET = 0x00
 ID_VALUE_MASK = 0xFFFFFFFF

@@ -1,52 +1,56 @@
 # SPDX-License-Identifier: Apache-2.0
 """C11 header: register offsets, field masks, and the structures of the result record with checked layout."""
 
-from scripts.regmap.model import SOURCE, Block, Register, RegisterMap
+from scripts.regmap.model import Block, Register, RegisterMap, Ring
 
 C_TYPES = {2: "uint16_t", 4: "uint32_t", 8: "uint64_t"}
 
 
 def export(register_map: RegisterMap) -> str:
-    """Text of firmware/generated/landing_regs.h."""
+    """Text of the header in firmware/generated."""
+    guard = f"{register_map.module.upper()}_H"
+    prefix = f"{register_map.prefix}_REG"
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
-        f"// Generated from {SOURCE} by python -m scripts.regmap. Do not edit.",
-        "#ifndef LANDING_REGS_H",
-        "#define LANDING_REGS_H",
+        f"// Generated from {register_map.source} by python -m scripts.regmap. Do not edit.",
+        f"#ifndef {guard}",
+        f"#define {guard}",
+        *(["", "#include <stddef.h>", "#include <stdint.h>"] if register_map.ring else []),
         "",
-        "#include <stddef.h>",
-        "#include <stdint.h>",
-        "",
-        "// Registers: byte offsets from the base of landing_core; fields as masks in place.",
+        "// Registers: byte offsets from their base; fields as masks in place.",
     ]
     for register in register_map.registers:
-        lines.append(f"#define LANDING_REG_{register.name}_OFFSET 0x{register.offset:02x}u")
-        lines += _fields(f"LANDING_REG_{register.name}", register)
-    lines += [
+        lines.append(f"#define {prefix}_{register.name}_OFFSET 0x{register.offset:02x}u")
+        lines += _fields(f"{prefix}_{register.name}", register)
+    if register_map.ring:
+        lines += _records(register_map.ring)
+    return "\n".join([*lines, "", "#endif"]) + "\n"
+
+
+def _records(ring: Ring) -> list[str]:
+    lines = [
         "",
         "// Result ring: buffers of LANDING_RING_STRIDE_BYTES, each begins with a struct landing_record.",
-        f"#define LANDING_RING_BUFFERS {register_map.ring_buffers}u",
-        f"#define LANDING_RING_STRIDE_BYTES {register_map.ring_stride}u",
-        f"#define LANDING_RECORD_MAX_OBJECTS {register_map.objects.count}u",
+        f"#define LANDING_RING_BUFFERS {ring.buffers}u",
+        f"#define LANDING_RING_STRIDE_BYTES {ring.stride}u",
+        f"#define LANDING_RECORD_MAX_OBJECTS {ring.objects.count}u",
     ]
-    for register in register_map.header.registers:
+    for register in ring.header.registers:
         if len(register.fields) > 1 and any(field.width != 16 or field.reset for field in register.fields):
             lines += _fields(f"LANDING_HEADER_{register.name}", register)
-    lines += _struct("landing_result_header", register_map.header)
-    lines += _struct("landing_object", register_map.objects)
-    lines += [
+    lines += _struct("landing_result_header", ring.header)
+    lines += _struct("landing_object", ring.objects)
+    return [
+        *lines,
         "",
         "struct landing_record {",
         "    struct landing_result_header header;",
         "    struct landing_object objects[LANDING_RECORD_MAX_OBJECTS];",
         "};",
-        _check("offsetof(struct landing_record, objects)", register_map.objects.offset),
-        _check("sizeof(struct landing_record)", register_map.record_size),
+        _check("offsetof(struct landing_record, objects)", ring.objects.offset),
+        _check("sizeof(struct landing_record)", ring.record_size),
         '_Static_assert(sizeof(struct landing_record) <= LANDING_RING_STRIDE_BYTES, "a record fits into a buffer");',
-        "",
-        "#endif",
     ]
-    return "\n".join(lines) + "\n"
 
 
 def _fields(prefix: str, register: Register) -> list[str]:

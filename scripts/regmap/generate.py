@@ -4,24 +4,31 @@
 from pathlib import Path
 
 from scripts.regmap import c_header, markdown, python_module, record_header, slave
-from scripts.regmap.model import SOURCE, load
+from scripts.regmap.model import Source, load
+
+LANDING = Source("rtl/landing_regs/landing_core.rdl", "landing_regs", "result_ring")
+DISPLAY = Source("rtl/display/display.rdl", "display_regs")
 
 EXPORTERS = {
-    "rtl/landing_regs/landing_regs.v": slave.export,
-    "rtl/generated/result_record.vh": record_header.export,
-    "firmware/generated/landing_regs.h": c_header.export,
-    "golden/generated/landing_regs.py": python_module.export,
-    "docs/registers.md": markdown.export,
+    "rtl/landing_regs/landing_regs.v": (LANDING, slave.export),
+    "rtl/generated/result_record.vh": (LANDING, record_header.export),
+    "firmware/generated/landing_regs.h": (LANDING, c_header.export),
+    "golden/generated/landing_regs.py": (LANDING, python_module.export),
+    "docs/registers.md": (LANDING, markdown.export),
+    "rtl/display/display_regs.v": (DISPLAY, slave.export),
+    "firmware/generated/display_regs.h": (DISPLAY, c_header.export),
+    "golden/generated/display_regs.py": (DISPLAY, python_module.export),
+    "docs/display_registers.md": (DISPLAY, markdown.export),
 }
 
 
 def write_all(root: Path, out: Path) -> list[Path]:
-    """Read the source below `root`, write all files below `out`; returns their paths."""
-    register_map = load(root / SOURCE)
+    """Read the sources below `root`, write all files below `out`; returns their paths."""
+    maps = {source: load(root, source) for source in (LANDING, DISPLAY)}
     paths = []
-    for name, export in EXPORTERS.items():
+    for name, (source, export) in EXPORTERS.items():
         path = out / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(export(register_map), encoding="utf-8")
+        path.write_text(export(maps[source]), encoding="utf-8")
         paths.append(path)
     return paths

@@ -1,27 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reference page of the registers and the result record."""
 
-from scripts.regmap.model import SOURCE, Block, Field, Register, RegisterMap
+from scripts.regmap.model import Block, Field, Register, RegisterMap, Ring
 
 ACCESS = {"ro": "read", "constant": "read", "rw": "read, write", "w1c": "read, write 1 to clear"}
 
-HEAD = f"""# Registers and result record
-
-Generated from `{SOURCE}` by `python -m scripts.regmap`; edit that file, not this page.
-How the generator works, and why it has its own exporters, is told in [regmap.md](regmap.md).
-
-## Bus
+BUS = """## Bus
 
 AXI4-Lite, 32 bit, a 4 KiB window. The low two address bits are ignored; byte strobes are honoured.
 An offset that is not in the table answers SLVERR (reads give 0).
-A write to a read-only field is ignored and answers OKAY.
-Interrupt: high while any bit of `IRQ_STATUS` that is enabled in `IRQ_ENABLE` is set, one clock later.
-"""
+A write to a read-only field is ignored and answers OKAY."""
+INTERRUPT = "Interrupt: high while any bit of `IRQ_STATUS` that is enabled in `IRQ_ENABLE` is set, one clock later."
 
 
 def export(register_map: RegisterMap) -> str:
-    """Text of docs/registers.md."""
-    lines = [HEAD, f"## {register_map.title}", "", "| offset | register | meaning |", "|---|---|---|"]
+    """Text of the reference page in docs."""
+    has_interrupt = any(field.enabled_by for register in register_map.registers for field in register.fields)
+    lines = [
+        f"# {register_map.title}",
+        "",
+        f"Generated from `{register_map.source}` by `python -m scripts.regmap`; edit that file, not this page.",
+        "How the generator works, and why it has its own exporters, is told in [regmap.md](regmap.md).",
+        "",
+        register_map.desc,
+        "",
+        BUS,
+        *([INTERRUPT] if has_interrupt else []),
+        "",
+        "## Registers",
+        "",
+        "| offset | register | meaning |",
+        "|---|---|---|",
+    ]
     for register in register_map.registers:
         lines.append(
             f"| `0x{register.offset:02X}` | [`{register.name}`](#{register.name.lower()}) | {register.title} |"
@@ -35,17 +45,22 @@ def export(register_map: RegisterMap) -> str:
         ]
         lines += ["", "| bits | field | access | reset | meaning |", "|---|---|---|---|---|"]
         lines += [_field(field) for field in register.fields]
-    lines += [
+    if register_map.ring:
+        lines += _records(register_map.ring)
+    return "\n".join(lines) + "\n"
+
+
+def _records(ring: Ring) -> list[str]:
+    return [
         "",
         "## Result ring",
         "",
-        f"{register_map.ring_buffers} buffers, {register_map.ring_stride} bytes apart, from `RING_BASE`. "
-        f"A buffer holds a header of {register_map.header.size} bytes and {register_map.objects.count} objects of "
-        f"{register_map.objects.size} bytes ({register_map.record_size} bytes in use). All values are little endian.",
+        f"{ring.buffers} buffers, {ring.stride} bytes apart, from `RING_BASE`. "
+        f"A buffer holds a header of {ring.header.size} bytes and {ring.objects.count} objects of "
+        f"{ring.objects.size} bytes ({ring.record_size} bytes in use). All values are little endian.",
+        *_block("Header", "struct landing_result_header", ring.header),
+        *_block("Object", "struct landing_object", ring.objects),
     ]
-    lines += _block("Header", "struct landing_result_header", register_map.header)
-    lines += _block("Object", "struct landing_object", register_map.objects)
-    return "\n".join(lines) + "\n"
 
 
 def _bits(field: Field) -> str:

@@ -11,13 +11,15 @@ from systemrdl.rdltypes import AccessType, OnWriteType
 
 from scripts.errors import UserError
 
-SOURCE = "rtl/landing_regs/landing_core.rdl"
 UNITS = ("us", "mm")
 
 
 @dataclass(frozen=True)
 class Field:
-    """One bit field. `access` is "ro" (hardware value), "constant", "rw" or "w1c"."""
+    """One bit field. `access` is "ro" (hardware value), "constant", "rw" or "w1c".
+
+    `pulses`: hardware is told when software writes the register.
+    """
 
     name: str
     lsb: int
@@ -26,6 +28,7 @@ class Field:
     reset: int | None
     desc: str
     to_hardware: bool
+    pulses: bool
     latched_by: str | None
     enabled_by: str | None
 
@@ -69,16 +72,31 @@ class Block:
 
 
 @dataclass(frozen=True)
-class RegisterMap:
-    """Everything that is generated comes from here."""
+class Ring:
+    """Records in memory: `buffers` of them, `stride` bytes apart."""
 
-    title: str
-    registers: tuple[Register, ...]
     header: Block
     objects: Block
     record_size: int
-    ring_buffers: int
-    ring_stride: int
+    buffers: int
+    stride: int
+
+
+@dataclass(frozen=True)
+class RegisterMap:
+    """Everything that is generated comes from here. `source` is the file, `module` the slave."""
+
+    source: str
+    module: str
+    title: str
+    desc: str
+    registers: tuple[Register, ...]
+    ring: Ring | None
+
+    @property
+    def prefix(self) -> str:
+        """Of names in C: LANDING for landing_regs."""
+        return self.module.removesuffix("_regs").upper()
 
 
 class _Quiet(MessagePrinter):
@@ -93,27 +111,44 @@ class _Quiet(MessagePrinter):
         self.lines.append(f"line {line}: {text}" if line else text)
 
 
-def load(source: Path) -> RegisterMap:
-    """Compile `source`; raises `UserError` on invalid SystemRDL or on what the exporters do not support."""
+@dataclass(frozen=True)
+class Source:
+    """A file that is the one source of a register map, the addrmap in it, and its addrmap of records, if any."""
+
+    path: str
+    module: str
+    ring: str | None = None
+
+
+def load(root: Path, source: Source) -> RegisterMap:
+    """Compile the file of `source` below `root`.
+
+    Raises:
+        UserError: it is not valid SystemRDL, or holds what the exporters do not support.
+    """
+    path = root / source.path
     printer = _Quiet()
     compiler = RDLCompiler(message_printer=printer)
     try:
-        compiler.compile_file(str(source))
-        top = compiler.elaborate("landing_regs").top
-        ring = compiler.elaborate("result_ring").top
+        compiler.compile_file(str(path))
+        top = compiler.elaborate(source.module).top
+        ring = compiler.elaborate(source.ring).top if source.ring else None
     except RDLCompileError as error:
-        raise UserError(f"{source.name} is not valid SystemRDL: {'; '.join(printer.lines)}.") from error
-    record = _only_child(ring)
-    header, objects = record.children()
+        raise UserError(f"{path.name} is not valid SystemRDL: {'; '.join(printer.lines)}.") from error
     return RegisterMap(
+        source=source.path,
+        module=source.module,
         title=top.get_property("name"),
+        desc=top.get_property("desc"),
         registers=_registers(top),
-        header=_block(header),
-        objects=_block(objects),
-        record_size=record.size,
-        ring_buffers=record.array_dimensions[0],
-        ring_stride=record.array_stride,
+        ring=_ring(ring) if ring else None,
     )
+
+
+def _ring(node: AddrmapNode) -> Ring:
+    record = _only_child(node)
+    header, objects = record.children()
+    return Ring(_block(header), _block(objects), record.size, record.array_dimensions[0], record.array_stride)
 
 
 def _only_child(ring: AddrmapNode) -> AddrmapNode:
@@ -165,6 +200,7 @@ def _field(node: FieldNode) -> Field:
         reset=int(reset) if reset is not None else None,
         desc=node.get_property("desc") or "",
         to_hardware=node.get_property("hw") in (AccessType.r, AccessType.rw),
+        pulses=bool(node.get_property("swmod")),
         latched_by=latch.node.parent.inst_name if latch else None,
         enabled_by=f"{enable.parent.inst_name}.{enable.inst_name}" if enable else None,
     )

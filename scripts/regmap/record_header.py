@@ -1,27 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verilog header: geometry of the ring, and bit positions in the 512-bit header and object words."""
 
-from scripts.regmap.model import SOURCE, Block, RegisterMap
+from scripts.errors import UserError
+from scripts.regmap.model import Block, RegisterMap
 
 
 def export(register_map: RegisterMap) -> str:
     """Text of rtl/generated/result_record.vh."""
+    ring = register_map.ring
+    if ring is None:
+        raise UserError(f"{register_map.source} holds no records.")
     constants = {
-        "RING_BUFFERS": register_map.ring_buffers,
-        "RING_STRIDE": register_map.ring_stride,
-        "RECORD_MAX_OBJECTS": register_map.objects.count,
-        "RECORD_OBJECTS_OFFSET": register_map.objects.offset,
-        "HEADER_BYTES": register_map.header.size,
-        "OBJECT_BYTES": register_map.objects.size,
-        **_positions("HEADER", register_map.header),
-        **_positions("OBJECT", register_map.objects),
+        "RING_BUFFERS": ring.buffers,
+        "RING_STRIDE": ring.stride,
+        "RECORD_MAX_OBJECTS": ring.objects.count,
+        "RECORD_OBJECTS_OFFSET": ring.objects.offset,
+        "HEADER_BYTES": ring.header.size,
+        "OBJECT_BYTES": ring.objects.size,
+        **_positions("HEADER", ring.header),
+        **_positions("OBJECT", ring.objects),
     }
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
-        f"// Generated from {SOURCE} by python -m scripts.regmap. Do not edit.",
+        f"// Generated from {register_map.source} by python -m scripts.regmap. Do not edit.",
         "// Include inside a module. *_LSB counts bits from bit 0 of the 512-bit header or object.",
         *(f"localparam integer {name} = {value};" for name, value in constants.items()),
-        *_values("HEADER", register_map.header),
+        *_values("HEADER", ring.header),
     ]
     return "\n".join(lines) + "\n"
 

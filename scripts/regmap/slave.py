@@ -1,27 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """AXI4-Lite slave in Verilog-2001 with flat ports."""
 
-from scripts.regmap.model import SOURCE, Field, Register, RegisterMap
+from scripts.regmap.model import Field, Register, RegisterMap
 
 ADDR_WIDTH = 12
 
-HEAD = f"""// SPDX-License-Identifier: Apache-2.0
-// Generated from {SOURCE} by python -m scripts.regmap. Do not edit.
-//
-// landing_regs: AXI4-Lite registers of landing_core. docs/registers.md is the reference.
-//
+CONTRACT = """\
 // Latency: read data one clock after the address is taken; write response two clocks after the later of address and
 // data. Throughput: one read and one write in two clocks, independent of each other.
 // AW and W are taken in any order. Ready depends on registers only, never on the valid of its channel.
 // The low two address bits are ignored. Unmapped offsets answer SLVERR, read 0 and change nothing; writes to read-only
-// fields are ignored with OKAY. Byte strobes are honoured in every field.
-// Interrupt: irq = OR of enabled status bits, registered. A set and a clear in one clock leave the status bit set.
+// fields are ignored with OKAY. Byte strobes are honoured in every field."""
+INTERRUPT = """\
+// Interrupt: irq = OR of enabled status bits, registered. A set and a clear in one clock leave the status bit set."""
+WRITTEN = "// <register>_<field>_written is 1 in the clock in which a write has arrived in that register."
+LIMITS = """\
 // Border, rounding: none, no picture. Overflow: none; counters are those of the cores that own them.
 // Limits: AxPROT is ignored.
 
 `default_nettype none
-
-module landing_regs (
 """
 
 BUS_PORTS = [
@@ -122,16 +119,31 @@ BUS = f"""
 
 
 def export(register_map: RegisterMap) -> str:
-    """Text of rtl/landing_regs/landing_regs.v."""
+    """Text of the slave."""
     registers = register_map.registers
-    lines = [HEAD.rstrip("\n")]
-    ports = BUS_PORTS + [port for register in registers for port in _ports(register)] + ["output wire irq"]
+    fields = [field for register in registers for field in register.fields]
+    has_interrupt = any(field.enabled_by for field in fields)
+    page = "registers" if register_map.ring else "display_registers"
+    lines = [
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// Generated from {register_map.source} by python -m scripts.regmap. Do not edit.",
+        "//",
+        f"// {register_map.module}: {register_map.desc} docs/{page}.md is the reference.",
+        "//",
+        CONTRACT,
+        *([INTERRUPT] if has_interrupt else []),
+        *([WRITTEN] if any(field.pulses for field in fields) else []),
+        LIMITS,
+        f"module {register_map.module} (",
+    ]
+    ports = BUS_PORTS + [port for register in registers for port in _ports(register)]
+    ports += ["output wire irq"] if has_interrupt else []
     lines += [f"    {port}," for port in ports[:-1]] + [f"    {ports[-1]}", ");"]
     lines.append(BUS.rstrip("\n"))
     lines += _declarations(registers)
     lines += _updates(registers)
     lines += _decoders(registers)
-    lines += _interrupt(registers)
+    lines += _interrupt(registers) if has_interrupt else [""]
     lines += ["endmodule", "", "`default_nettype wire"]
     return "\n".join(lines) + "\n"
 
@@ -154,11 +166,17 @@ def _ports(register: Register) -> list[str]:
             ports.append(f"input wire {name}_set")
         elif field.access == "rw" and field.to_hardware:
             ports.append(f"output wire {_range(field)}{name}")
+        if field.pulses:
+            ports.append(f"output wire {name}_written")
     return ports
 
 
 def _stored(registers: tuple[Register, ...]) -> list[tuple[Register, Field]]:
     return [(r, f) for r in registers for f in r.fields if f.access in ("rw", "w1c") or f.latched_by]
+
+
+def _pulsing(registers: tuple[Register, ...]) -> list[tuple[Register, Field]]:
+    return [(r, f) for r in registers for f in r.fields if f.pulses]
 
 
 def _declarations(registers: tuple[Register, ...]) -> list[str]:
@@ -168,6 +186,9 @@ def _declarations(registers: tuple[Register, ...]) -> list[str]:
     for register, field in _stored(registers):
         if field.access == "rw" and field.to_hardware:
             lines.append(f"    assign {_name(register, field)} = {_name(register, field)}_reg;")
+    for register, field in _pulsing(registers):
+        name = _name(register, field)
+        lines += [f"    reg {name}_written_reg;", f"    assign {name}_written = {name}_written_reg;"]
     lines.append("")
     written = {r.name: r for r, f in _stored(registers) if f.access in ("rw", "w1c")}
     latching = {f.latched_by for _, f in _stored(registers) if f.latched_by}
@@ -194,7 +215,10 @@ def _updates(registers: tuple[Register, ...]) -> list[str]:
             ]
         else:
             lines.append(f"        if ({str(field.latched_by).lower()}_read) {name}_reg <= {name};")
+    for register, field in _pulsing(registers):
+        lines.append(f"        {_name(register, field)}_written_reg <= {register.name.lower()}_write;")
     lines.append("        if (rst) begin")
+    lines += [f"            {_name(r, f)}_written_reg <= 1'b0;" for r, f in _pulsing(registers)]
     for register, field in _stored(registers):
         lines.append(f"            {_name(register, field)}_reg <= {field.width}'h{field.reset or 0:X};")
     return [*lines, "        end", "    end"]
