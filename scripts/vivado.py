@@ -178,9 +178,8 @@ def run_script(tool: str, script: str, inputs: Path, log: Path) -> None:
         return
     given_up = [line for line in run.stderr.splitlines() if line.startswith("touchdown: ")]
     errors = [line for line in (run.stdout + run.stderr).splitlines() if line.startswith("ERROR")]
-    sentence = (
-        given_up[0].removeprefix("touchdown: ") if given_up else f"Vivado stopped: {(errors or ['no reason'])[0]}"
-    )
+    vivado_said = errors[0] if errors else "it gave no reason"
+    sentence = given_up[0].removeprefix("touchdown: ") if given_up else f"Vivado stopped: {vivado_said}"
     raise UserError(f"{sentence.rstrip('.')}; the log is {os.path.relpath(log, ROOT)}.")
 
 
