@@ -32,6 +32,11 @@ RUNS ?=
 SECONDS ?=
 KEEP ?=
 JOBS ?= 2
+DIGILENT_IP ?=
+TOOL ?=
+DRY_RUN ?=
+CARD ?=
+FSBL ?=
 
 .PHONY: help
 help: ## This list
@@ -135,6 +140,26 @@ regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_
 .PHONY: firmware
 firmware: setup ## Build build/firmware/touchdown.elf: [CAMERA=file] [AUTOPILOT_BAUD=57600] [GROUND_BAUD=115200]
 	@$(MAKE) --no-print-directory -C firmware elf
+
+.PHONY: bitstream
+bitstream: setup ## Build the board's bitstream with Vivado 2023.2: DIGILENT_IP=<clone of vivado-library> (docs/board.md)
+	@$(PYTHON) -m scripts.vivado bitstream --digilent-ip "$(DIGILENT_IP)"
+
+.PHONY: xsa
+xsa: setup ## The same, and the hardware description for Vitis: DIGILENT_IP=<clone of vivado-library>
+	@$(PYTHON) -m scripts.vivado xsa --digilent-ip "$(DIGILENT_IP)"
+
+.PHONY: ip
+ip: setup ## Package one core or all as IP-XACT with Vivado: [CORE=name]
+	@$(PYTHON) -m scripts.vivado ip $(if $(CORE),--core "$(CORE)")
+
+.PHONY: flash
+flash: setup ## Load bitstream and firmware into a board on USB: [TOOL=xsct|openocd] [DRY_RUN=1]
+	@$(PYTHON) -m scripts.flash $(if $(TOOL),--tool "$(TOOL)") $(if $(filter-out 0,$(DRY_RUN)),--dry-run)
+
+.PHONY: sdcard
+sdcard: setup ## BOOT.BIN for a card that starts the board: [CARD=<where it is mounted>] [FSBL=file] [DRY_RUN=1]
+	@$(PYTHON) -m scripts.sdcard $(if $(CARD),--card "$(CARD)") $(if $(FSBL),--fsbl "$(FSBL)") $(if $(filter-out 0,$(DRY_RUN)),--dry-run)
 
 .PHONY: clean
 clean: ## Remove build/ (not .venv)

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# The processor by way of JTAG, in two steps with the bitstream between them:
+#   xsct scripts/flash/xsct.tcl init <ps7_init.tcl>
+#   xsct scripts/flash/xsct.tcl run <ps7_init.tcl> <elf>
+
+lassign $argv step ps7_init elf
+connect
+targets -set -nocase -filter {name =~ "APU*"}
+if {$step eq "init"} {
+    # A reset of the whole may clear the logic too, so it comes before the bitstream.
+    rst -system
+    after 500
+    source $ps7_init
+    ps7_init
+} else {
+    source $ps7_init
+    # Opens the way between processor and logic; the logic has to be there by now.
+    ps7_post_config
+    targets -set -nocase -filter {name =~ "*A9*#0"}
+    rst -processor
+    dow $elf
+    con
+}
+disconnect
