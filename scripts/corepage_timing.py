@@ -44,8 +44,8 @@ def bare(name: str) -> str:
 
 
 def clock_of(timing: Timing) -> Timing:
-    """The signal `clk` of a picture."""
-    return next(signal for signal in timing["signal"] if signal.get("name") == "clk")
+    """The signal `clk` of a picture, or that of the only clock that it has."""
+    return next(signal for name in CLOCKS for signal in timing["signal"] if signal.get("name") == name)
 
 
 def gap_columns(signal: Timing) -> list[int]:
@@ -123,7 +123,8 @@ def bench(core: str, timing: Timing, ports: Ports) -> str:
     rest = [name for name, (way, _) in ports.items() if way == "in" and name not in CLOCKS]
     lines += [f"{name} = {timing.get('set', {}).get(name, 0)};" for name in rest]
     # A data wave has no value for before its first column: the bus is idle until then.
-    lines += ["rst = 1;", f"repeat ({RESET_CLOCKS}) @(posedge clk);", "#1 rst = 0;"]
+    reset = "rst" if "rst" in ports else "pix_rst"
+    lines += [f"{reset} = 1;", f"repeat ({RESET_CLOCKS}) @(posedge clk);", f"#1 {reset} = 0;"]
     lines += ["prelude;"] if "prelude" in timing else []
     lines += [f"repeat ({timing.get('wait', 4)}) @(posedge clk);", "#1;"]
     for column, length in enumerate(clocks_of_columns(timing)):

@@ -17,10 +17,11 @@ from scripts.lint import YOSYS, yosys_script
 from tb.common.cores import ROOT, Core
 
 TOP = "pnr_harness"
+CLOCKS = ("clk", "pix_clk")
 PINS = {"clk": "H16", "pix_clk": "K17", "serial_in": "D19", "serial_out": "R14"}
 """Pins of the Arty Z7-20; the clocks are at pins that can hold one."""
 PIXEL_PORTS = tuple(f"{side}_{name}" for side in ("vid", "out") for name in ("data", "de", "hsync", "vsync"))
-"""Ports that belong to `pix_clk` where a core has one."""
+"""Ports that belong to `pix_clk` where a core has two clocks."""
 
 
 @dataclass(frozen=True)
@@ -70,28 +71,34 @@ def _shift_register(clock: str, name: str, ports: list[Port], serial: str) -> li
     return lines
 
 
+def clocks_of(ports: list[Port]) -> list[str]:
+    """Names of the clocks among the ports of a core."""
+    return [clock for clock in CLOCKS if any(port.name == clock for port in ports)]
+
+
 def harness(core: Core, ports: list[Port], parameters: Mapping[str, int]) -> str:
     """Verilog of the design around a core."""
-    has_pixel_clock = any(port.name == "pix_clk" for port in ports)
-    inputs = [port for port in ports if port.direction == "input" and port.name not in ("clk", "pix_clk")]
+    clocks = clocks_of(ports)
+    inputs = [port for port in ports if port.direction == "input" and port.name not in clocks]
     outputs = [port for port in ports if port.direction == "output"]
-    of_pixels = [port for port in inputs if has_pixel_clock and port.name in PIXEL_PORTS]
-    of_clk = [port for port in inputs if port not in of_pixels]
+
+    def of(clock: str, some: list[Port]) -> list[Port]:
+        is_of_pixels = clock == "pix_clk"
+        return [port for port in some if len(clocks) == 1 or (port.name in PIXEL_PORTS) == is_of_pixels]
+
     lines = [
         f"module {TOP} (",
-        "    input wire clk,",
-        *(["    input wire pix_clk,"] if has_pixel_clock else []),
+        *(f"    input wire {clock}," for clock in clocks),
         "    input wire serial_in,",
         "    output wire serial_out",
         ");",
-        *_shift_register("clk", "in_reg", of_clk, "serial_in"),
     ]
-    if has_pixel_clock:
+    for clock in clocks:
         # In flip-flops of its own clock before they go on.
-        lines += _shift_register("pix_clk", "pixel_reg", of_pixels, "serial_in")
+        if of_clock := of(clock, inputs):
+            lines += _shift_register(clock, "pixel_reg" if clock == "pix_clk" else "in_reg", of_clock, "serial_in")
     lines += [f"    wire [{port.width - 1}:0] {port.name};" for port in outputs]
     chosen = ", ".join(f".{name}({value})" for name, value in parameters.items())
-    clocks = ["clk", *(["pix_clk"] if has_pixel_clock else [])]
     names = [*clocks, *(port.name for port in inputs), *(port.name for port in outputs)]
     lines += [
         f"    {core.toplevel} #({chosen}) core (" if chosen else f"    {core.toplevel} core (",
@@ -99,8 +106,7 @@ def harness(core: Core, ports: list[Port], parameters: Mapping[str, int]) -> str
         f"        .{names[-1]}({names[-1]})",
         "    );",
     ]
-    to_pixels = [port for port in outputs if has_pixel_clock and port.name in PIXEL_PORTS]
-    folds = {"clk": [port for port in outputs if port not in to_pixels], "pix_clk": to_pixels}
+    folds = {clock: of(clock, outputs) for clock in clocks}
     for clock, ports_of_clock in folds.items():
         if ports_of_clock:
             lines += _fold(clock, ports_of_clock)
@@ -125,7 +131,7 @@ def _fold(clock: str, ports: list[Port]) -> list[str]:
 
 def constraints(ports: list[Port]) -> str:
     """Where the pins of the design are."""
-    used = [name for name in PINS if name != "pix_clk" or any(port.name == "pix_clk" for port in ports)]
+    used = [name for name in PINS if name in clocks_of(ports) or name not in CLOCKS]
     return "".join(
         f"set_property LOC {PINS[name]} [get_ports {name}]\nset_property IOSTANDARD LVCMOS33 [get_ports {name}]\n"
         for name in used

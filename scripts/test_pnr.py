@@ -32,7 +32,10 @@ def test_every_core_has_a_goal() -> None:
     assert set(budgets()["fmax"]) == {*core_names(), "pix_clk"}
 
 
-@pytest.mark.parametrize(("name", "of_pixels"), [("video_in", "vid_data"), ("video_out", "vid_de"), ("rgb2gray", "")])
+@pytest.mark.parametrize(
+    ("name", "of_pixels"),
+    [("video_in", "vid_data"), ("video_out", "vid_de"), ("pattern_source", "move"), ("rgb2gray", "")],
+)
 def test_every_path_begins_and_ends_at_a_flip_flop_of_its_clock(name: str, of_pixels: str) -> None:
     core = load_core(name)
     ports = ports_of(core, {})
@@ -40,13 +43,14 @@ def test_every_path_begins_and_ends_at_a_flip_flop_of_its_clock(name: str, of_pi
     taken = {clock: text.partition(f" {clock}_out_reg <= {{")[2].partition("}")[0].split(", ") for clock in CLOCKS}
     for port in ports:
         assert f".{port.name}({port.name})" in text
-        clock = "pix_clk" if port.name.startswith(("vid_", "out_")) else "clk"
+        clock = "pix_clk" if name == "pattern_source" or port.name.startswith(("vid_", "out_")) else "clk"
         if port.direction == "output":
             assert port.name in taken[clock]
         elif port.name not in CLOCKS:
             assert f" {port.name} = {'pixel_reg' if clock == 'pix_clk' else 'in_reg'}[" in text
     assert ("always @(posedge pix_clk) pixel_reg" in text) == bool(of_pixels)
     assert ("get_ports pix_clk" in constraints(ports)) == bool(of_pixels)
+    assert ("get_ports clk" in constraints(ports)) == ("input wire clk," in text) == (name != "pattern_source")
     if name == "video_in":
         assert "video_in #(.MAX_WIDTH(64)) core" in text
 

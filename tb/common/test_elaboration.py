@@ -84,6 +84,18 @@ LIMITS = [
     *limits("video_out", "DELAY", (16, 65538), "ERROR_delay_must_be_16_to_65538_cycles"),
     Limit("video_out", "FIFO_DEPTH", 2, 4, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4"),
     Limit("video_out", "FIFO_DEPTH", 1000, 1024, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4"),
+    *limits(
+        "pattern_source",
+        "H_TOTAL",
+        (1430, 65535),
+        "ERROR_a_line_must_hold_its_pixels_and_its_sync_in_at_most_65535_cycles",
+    ),
+    *limits(
+        "pattern_source",
+        "V_TOTAL",
+        (730, 65535),
+        "ERROR_a_frame_must_hold_its_lines_and_its_sync_in_at_most_65535_lines",
+    ),
     *limits("landing_core", "CLK_PER_US", (2, 1023), "ERROR_clk_per_us_must_be_2_to_1023"),
 ]
 
