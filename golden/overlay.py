@@ -28,6 +28,8 @@ class Drawing:
     tip: tuple[int, int] = (0, 0)
     """Where the direction of the pad points; counts where there is a centre."""
     crosshair: bool = False
+    tint: bool = False
+    """Bright pixels (red 128 or more) have the colour of the last box around them."""
     text: tuple[str, ...] | None = None
     """`LINES` lines of at most `COLUMNS` characters; those below the space are not drawn, from 96 on as 32 less."""
 
@@ -76,6 +78,11 @@ def overlay(rgb: npt.NDArray[np.int64], drawing: Drawing) -> npt.NDArray[np.int6
     picture = rgb.astype(np.int64)
     height, width = picture.shape
     y, x = np.mgrid[0:height, 0:width].astype(np.int64)
+    if drawing.tint:
+        bright = (picture >> 23 & 1).astype(bool)
+        for box, colour in zip(drawing.boxes, BOX_COLOURS, strict=True):
+            if box is not None:
+                picture[bright & (x >= box[0]) & (x <= box[2]) & (y >= box[1]) & (y <= box[3])] = colour
     if drawing.crosshair:
         right, below = x - width // 2, y - height // 2
         level, upright = (below == 0) & (abs(right) <= CROSSHAIR_ARM), (right == 0) & (abs(below) <= CROSSHAIR_ARM)

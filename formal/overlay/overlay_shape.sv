@@ -9,6 +9,7 @@ module overlay_shape #(
     input wire clk,
     input wire rst,
     input wire cfg_hold,
+    input wire cfg_tint,
     input wire cfg_show_text,
     input wire cfg_text_bank,
     input wire cfg_show_pad,

@@ -11,6 +11,7 @@ module overlay_stream #(
     input wire [15:0] cfg_width,
     input wire [15:0] cfg_height,
     input wire cfg_hold,
+    input wire cfg_tint,
     input wire cfg_show_text,
     input wire cfg_text_bank,
     input wire cfg_show_pad,

@@ -76,7 +76,23 @@ module landing_core #(
     input  wire        lidar_in,
     output wire        lidar_drive_low,
 
-    output wire        irq
+    output wire        irq,
+
+    // For a display: what passes, each beat once, in the clock in which it is taken. Nothing here waits for it.
+    output wire [15:0] view_width,
+    output wire [15:0] view_height,
+    output wire [23:0] view_rgb_tdata,
+    output wire        view_rgb_tvalid,
+    output wire        view_rgb_tuser,
+    output wire        view_rgb_tlast,
+    output wire [7:0]  view_gray_tdata,
+    output wire        view_gray_tvalid,
+    output wire        view_gray_tuser,
+    output wire        view_gray_tlast,
+    output wire        view_binary_tdata,   // 1: ccl labels the pixel
+    output wire        view_binary_tvalid,
+    output wire        view_binary_tuser,
+    output wire        view_binary_tlast
 );
 
     `include "result_record.vh"
@@ -311,8 +327,23 @@ module landing_core #(
         .m_axis_tready(dilated_tready),
         .m_axis_tuser(dilated_tuser),
         .m_axis_tlast(dilated_tlast),
+        .gray_beat_tdata(view_gray_tdata),
+        .gray_beat_tvalid(view_gray_tvalid),
+        .gray_beat_tuser(view_gray_tuser),
+        .gray_beat_tlast(view_gray_tlast),
         .thresholds_missing(thresholds_missing)
     );
+
+    assign view_width = width_reg;
+    assign view_height = height_reg;
+    assign view_rgb_tdata = rgb_tdata;
+    assign view_rgb_tvalid = rgb_tvalid && rgb_tready;
+    assign view_rgb_tuser = rgb_tuser;
+    assign view_rgb_tlast = rgb_tlast;
+    assign view_binary_tdata = dilated_tdata != label_zeros_reg;
+    assign view_binary_tvalid = dilated_tvalid && dilated_tready;
+    assign view_binary_tuser = dilated_tuser;
+    assign view_binary_tlast = dilated_tlast;
 
     // ---- Shapes to records.
 

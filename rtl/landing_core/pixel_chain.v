@@ -33,6 +33,12 @@ module pixel_chain #(
     output wire       m_axis_tuser,
     output wire       m_axis_tlast,
 
+    // The gray pixels, each in the clock in which it is taken.
+    output wire [7:0] gray_beat_tdata,
+    output wire       gray_beat_tvalid,
+    output wire       gray_beat_tuser,
+    output wire       gray_beat_tlast,
+
     output wire thresholds_missing
 );
 
@@ -48,6 +54,11 @@ module pixel_chain #(
     wire median_tvalid, median_tready, median_tuser, median_tlast;
     wire unused_stale;
     wire [5:0] unused_errors;
+
+    assign gray_beat_tdata = gray_tdata;
+    assign gray_beat_tvalid = gray_tvalid && gray_tready;
+    assign gray_beat_tuser = gray_tuser;
+    assign gray_beat_tlast = gray_tlast;
 
     rgb2gray to_gray (
         .clk(clk),

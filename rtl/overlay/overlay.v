@@ -4,7 +4,7 @@
 //
 // Latency     7 cycles.
 // Throughput  1 pixel a cycle, no stalls of its own.
-// Order       text, centre and direction, boxes (box 0 first), crosshair, picture: the first that covers a pixel counts.
+// Order       text, centre and direction, boxes (box 0 first), crosshair, tint, picture: the first that covers a pixel counts.
 // Borders     none: pointwise; what lies outside the frame is not drawn.
 // Rounding    the picture behind the text is a quarter as bright, rounded down.
 // Overflow    none: coordinates are signed, -8192 to 8191, and everything is computed wide enough for them.
@@ -12,7 +12,7 @@
 //             showed. Malformed frames: docs/design.md.
 //
 // cfg_boxes holds {bottom, right, top, left} of box 3 to box 0, 14 bits each, ends included; its line lies
-// inside and is 2 pixels wide. The direction is the line from cfg_centre to cfg_tip, drawn where a pixel is at most one
+// inside and is 2 pixels wide. With cfg_tint a pixel whose red is 128 or more has the colour of the last box around it. The direction is the line from cfg_centre to cfg_tip, drawn where a pixel is at most one
 // from it, counted along the axis that changes less.
 
 `default_nettype none
@@ -27,6 +27,7 @@ module overlay #(
     input wire [ 15:0] cfg_width,
     input wire [ 15:0] cfg_height,
     input wire         cfg_hold,
+    input wire         cfg_tint,
     input wire         cfg_show_text,
     input wire         cfg_text_bank,
     input wire         cfg_show_pad,
@@ -138,6 +139,7 @@ module overlay #(
 
   wire       on_crosshair;
   wire [3:0] on_box;
+  wire [3:0] in_box;
 
   overlay_crosshair crosshair (
       .clk        (clk),
@@ -166,6 +168,7 @@ module overlay #(
           .bottom(cfg_boxes[56*box+42+:14]),
           .x     (x_1_reg),
           .y     (y_1_reg),
+          .holds (in_box[box]),
           .covers(on_box[box])
       );
     end
@@ -214,6 +217,8 @@ module overlay #(
 
   reg [23:0] rgb_2_reg, rgb_3_reg, rgb_4_reg;
   reg [4:0] shapes_2_reg, shapes_3_reg, shapes_4_reg;
+  reg [3:0] tints_2_reg, tints_3_reg, tints_4_reg;
+  reg tint_reg;
   reg [1:0] text_4_reg, text_5_reg;
 
   always @(posedge clk) begin
@@ -224,6 +229,10 @@ module overlay #(
       shapes_2_reg <= {on_crosshair, on_box};
       shapes_3_reg <= shapes_2_reg;
       shapes_4_reg <= shapes_3_reg;
+      tints_2_reg  <= in_box & {4{tint_reg && rgb_1_reg[23]}};
+      tints_3_reg  <= tints_2_reg;
+      tints_4_reg  <= tints_3_reg;
+      if (start && !cfg_hold) tint_reg <= cfg_tint;
       text_4_reg   <= {text_ink, text_behind};
       text_5_reg   <= text_4_reg;
     end
@@ -243,6 +252,10 @@ module overlay #(
       else if (shapes_4_reg[2]) rgb_5_reg <= RECTANGLE_COLOUR;
       else if (shapes_4_reg[3]) rgb_5_reg <= SMALL_RING_COLOUR;
       else if (shapes_4_reg[4]) rgb_5_reg <= CROSSHAIR_COLOUR;
+      else if (tints_4_reg[3]) rgb_5_reg <= SMALL_RING_COLOUR;
+      else if (tints_4_reg[2]) rgb_5_reg <= RECTANGLE_COLOUR;
+      else if (tints_4_reg[1]) rgb_5_reg <= SQUARE_COLOUR;
+      else if (tints_4_reg[0]) rgb_5_reg <= RING_COLOUR;
       else rgb_5_reg <= rgb_4_reg;
 
       if (text_5_reg[1]) rgb_6_reg <= TEXT_COLOUR;

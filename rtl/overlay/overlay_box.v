@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a pixel lies on the line of a box, 2 pixels wide and inside of it.
+// Whether a pixel lies in a box, and on its line, which is 2 pixels wide and lies inside.
 //
 // Latency 0 cycles from x, y. Throughput: a pixel a cycle. Border, rounding, overflow: none. Limits: what sample finds
 // counts for the pixels from the next cycle on.
@@ -17,6 +17,7 @@ module overlay_box (
     input  wire signed [13:0] bottom,
     input  wire signed [13:0] x,
     input  wire signed [13:0] y,
+    output wire               holds,
     output wire               covers
 );
 
@@ -33,7 +34,8 @@ module overlay_box (
   wire contains = !(from_left[14] || from_top[14] || from_right[14] || from_bottom[14]);
   wire at_edge = from_left < LINE || from_top < LINE || from_right < LINE || from_bottom < LINE;
 
-  assign covers = show_reg && contains && at_edge;
+  assign holds = show_reg && contains;
+  assign covers = holds && at_edge;
 
   always @(posedge clk) begin
     if (sample) begin

@@ -34,7 +34,7 @@ def drawing_of(first_pixel: int) -> Drawing:
     if centre and rng.random() < 0.5:
         centre = (min(centre[0] + 30, MOST), max(centre[1] - 30, LEAST))
     text = rng.choice(TEXTS) if rng.random() < 0.3 else None
-    return Drawing(boxes, centre, (place(rng), place(rng)), rng.random() < 0.3, text)
+    return Drawing(boxes, centre, (place(rng), place(rng)), rng.random() < 0.3, rng.random() < 0.4, text)
 
 
 def random_text(seed: int) -> tuple[str, ...]:
@@ -59,6 +59,7 @@ def show(dut: HierarchyObject, drawing: Drawing) -> None:
     dut.cfg_tip_x.value, dut.cfg_tip_y.value = (value & 0x3FFF for value in drawing.tip)
     dut.cfg_show_pad.value = drawing.centre is not None
     dut.cfg_show_crosshair.value = drawing.crosshair
+    dut.cfg_tint.value = drawing.tint
     dut.cfg_show_text.value = drawing.text is not None
     dut.cfg_text_bank.value = TEXTS.index(drawing.text) if drawing.text in TEXTS else getrandbits(1)
 
