@@ -10,6 +10,7 @@ from scripts.errors import UserError
 from tb.common.cores import ROOT, load_core
 
 TABLE = ROOT / "rtl/top/board.toml"
+VENDOR = ROOT / "tb/top/vendor"
 INCLUDES = ROOT / "rtl/generated"
 
 
@@ -26,6 +27,11 @@ class Board:
 def part() -> str:
     """The device, without a look at the cores."""
     return tomllib.loads(TABLE.read_text(encoding="utf-8"))["part"]
+
+
+def vendor_files() -> list[Path]:
+    """Ports of the vendor's cells, for tools that do not have those."""
+    return sorted(VENDOR.glob("*.v"))
 
 
 def own_sources() -> tuple[Path, ...]:

@@ -12,12 +12,10 @@ from pathlib import Path
 import pytest
 
 from scripts import vivado
-from scripts.board import Board
-from scripts.board_files import board_files
 from scripts.errors import UserError
 from scripts.rtl_facts import Facts, bits_of
 from scripts.vivado_standin import Outcome, run_standin, write_facts
-from tb.common.cores import ROOT, core_names, load_core
+from tb.common.cores import core_names, load_core
 
 AXI = {
     "landing_core": {"s_axil", "m_axi"},
@@ -86,10 +84,6 @@ def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(vivado, "PACKAGES", tmp_path / "ip")
     monkeypatch.setattr(vivado, "board_inputs", lambda goal, library: board_inputs(goal, library, tmp_path / "out"))
     monkeypatch.setattr(vivado, "package_inputs", lambda core: package_inputs(core, tmp_path / "ip"))
-    constraints = tuple(ROOT / f"constraints/{name}.xdc" for name in ("arty_z7", "video_in"))
-    monkeypatch.setattr(
-        vivado, "load_board", lambda: Board("xc7z020clg400-1", "arty_z7_top", tuple(board_files()), constraints)
-    )
     return folder
 
 

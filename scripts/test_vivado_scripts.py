@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.board import INCLUDES, TABLE
-from scripts.board_files import VENDOR, board_files, vendor_files
+from scripts.board import INCLUDES, TABLE, VENDOR, load_board, vendor_files
 from scripts.lint_run import need
 from scripts.rtl_facts import Facts, facts_of
 from scripts.vivado import FALLBACK, SCRIPTS, VERSION, listed, quoted, register_bases, write_inputs
@@ -136,7 +135,7 @@ class Ground:
     def build(self, goal: str = "xsa", **facts: str) -> Outcome:
         """Run build.tcl."""
         out = self.folder / "out"
-        known = write_facts(self.folder / "facts.tcl", self.facts, board_files(), facts)
+        known = write_facts(self.folder / "facts.tcl", self.facts, load_board().sources, facts)
         inputs = write_inputs(
             self.folder / "inputs.tcl",
             {
@@ -146,7 +145,7 @@ class Ground:
                 "part": "xc7z020clg400-1",
                 "top": "arty_z7_top",
                 "digilent_ip": quoted(self.folder),
-                "sources": listed(board_files()),
+                "sources": listed(load_board().sources),
                 "include_dirs": listed([INCLUDES]),
                 "constraints": listed([self.folder / "constraints" / name for name in CONSTRAINTS]),
                 "register_bases": listed([word for pair in register_bases().items() for word in pair]),
@@ -157,7 +156,7 @@ class Ground:
 
 @pytest.fixture(scope="module")
 def facts() -> Facts:
-    return facts_of("arty_z7_top", [*board_files(), *vendor_files()])
+    return facts_of("arty_z7_top", [*load_board().sources, *vendor_files()])
 
 
 @pytest.fixture

@@ -121,7 +121,8 @@ module board_video #(
 
   // ---- Which source, which clock.
 
-  wire [1:0] want;
+  wire [1:0] picked;
+  wire [1:0] want = picked == 2'd3 ? 2'd0 : picked;
   wire [1:0] source;
   wire       hold;
 
@@ -230,8 +231,6 @@ module board_video #(
   wire view_gray_tvalid, view_gray_tuser, view_gray_tlast;
   wire view_binary_tdata;
   wire view_binary_tvalid, view_binary_tuser, view_binary_tlast;
-  wire [7:0] view_label_tdata;
-  wire view_label_tvalid, view_label_tuser, view_label_tlast;
 
   landing_core #(
       .MAX_WIDTH (MAX_WIDTH),
@@ -294,10 +293,6 @@ module board_video #(
       .view_binary_tvalid(view_binary_tvalid),
       .view_binary_tuser(view_binary_tuser),
       .view_binary_tlast(view_binary_tlast),
-      .view_label_tdata(view_label_tdata),
-      .view_label_tvalid(view_label_tvalid),
-      .view_label_tuser(view_label_tuser),
-      .view_label_tlast(view_label_tlast),
       .lidar_in(lidar_in),
       .lidar_drive_low(lidar_drive_low),
       .irq(irq)
@@ -305,7 +300,7 @@ module board_video #(
 
   display #(
       .CLK_PER_US(CLK_PER_US)
-  ) monitor (
+  ) screen (
       .clk(clk),
       .rst(rst),
       .s_axil_awaddr(s_axil_display_awaddr),
@@ -341,10 +336,6 @@ module board_video #(
       .view_binary_tvalid(view_binary_tvalid),
       .view_binary_tuser(view_binary_tuser),
       .view_binary_tlast(view_binary_tlast),
-      .view_label_tdata(view_label_tdata),
-      .view_label_tvalid(view_label_tvalid),
-      .view_label_tuser(view_label_tuser),
-      .view_label_tlast(view_label_tlast),
       .pix_clk(pix_clk),
       .vid_de(vid_de),
       .vid_hsync(vid_hsync),
@@ -358,7 +349,7 @@ module board_video #(
       .buttons(buttons),
       .switches(switches),
       .leds(leds),
-      .source(want),
+      .source(picked),
       .pattern_move(pattern_move),
       .stored_base(stored_base),
       .stored_underflow(stored_underflow),

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from scripts.board_files import SHARED
 from scripts.lint_run import need
 from tb.common.cores import ROOT, Core
 from tb.common.runner import SIMULATORS, check_simulator, default_seed, run_config
 
+SHARED = tuple(ROOT / f"rtl/video_in/{name}.v" for name in ("sync_bits", "reset_sync"))
 FILES = (*SHARED, *(ROOT / f"rtl/top/source_{name}.v" for name in ("switch", "mux")))
 CONFIGS = ({"CLK_PER_US": 10, "QUIET_US": 3, "HOLD_US": 12},)
 
