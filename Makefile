@@ -35,6 +35,7 @@ JOBS ?= 2
 DIGILENT_IP ?=
 TOOL ?=
 DRY_RUN ?=
+NO_FIRMWARE ?=
 CARD ?=
 FSBL ?=
 
@@ -154,8 +155,8 @@ ip: setup ## Package one core or all as IP-XACT with Vivado: [CORE=name]
 	@$(PYTHON) -m scripts.vivado ip $(if $(CORE),--core "$(CORE)")
 
 .PHONY: flash
-flash: setup ## Load bitstream and firmware into a board on USB: [TOOL=xsct|openocd] [DRY_RUN=1]
-	@$(PYTHON) -m scripts.flash $(if $(TOOL),--tool "$(TOOL)") $(if $(filter-out 0,$(DRY_RUN)),--dry-run)
+flash: setup ## Load bitstream and firmware into a board on USB: [TOOL=xsct|openocd] [NO_FIRMWARE=1] [DRY_RUN=1]
+	@$(PYTHON) -m scripts.flash $(if $(TOOL),--tool "$(TOOL)") $(if $(filter-out 0,$(NO_FIRMWARE)),--no-firmware) $(if $(filter-out 0,$(DRY_RUN)),--dry-run)
 
 .PHONY: sdcard
 sdcard: setup ## BOOT.BIN for a card that starts the board: [CARD=<where it is mounted>] [FSBL=file] [DRY_RUN=1]

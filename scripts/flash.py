@@ -35,17 +35,18 @@ def entry_of(elf: Path) -> int:
     return struct.unpack_from("<I", head, 24)[0]
 
 
-def steps(tool: str, bit: Path, elf: Path, ps7_init: Path, entry: int) -> list[Step]:
-    """The commands, in their order."""
+def steps(tool: str, bit: Path, elf: Path | None, ps7_init: Path, entry: int) -> list[Step]:
+    """The commands, in their order; without a program the processor is left waiting."""
     load = Step(("openFPGALoader", "-b", BOARD, shown(bit)), NO_BOARD)
     if tool == "xsct":
         script = shown(SCRIPTS / "xsct.tcl")
         before = ("xsct", script, "init", shown(ps7_init))
-        after = ("xsct", script, "run", shown(ps7_init), shown(elf))
+        after = ("xsct", script, "run", shown(ps7_init), *([shown(elf)] if elf else []))
     else:
         script = shown(SCRIPTS / "openocd.tcl")
         before = (*OPENOCD, "-f", script, "-c", f"ps_init {{{shown(ps7_init)}}}")
-        after = (*OPENOCD, "-f", script, "-c", f"ps_run {{{shown(ps7_init)}}} {{{shown(elf)}}} {entry:#010x}")
+        program = f" {{{shown(elf)}}} {entry:#010x}" if elf else ""
+        after = (*OPENOCD, "-f", script, "-c", f"ps_run {{{shown(ps7_init)}}}{program}")
     return [Step(before, NO_BOARD), load, Step(after, NO_BOARD)]
 
 
@@ -53,20 +54,23 @@ def main() -> int:
     """Entry point of `make flash`."""
     parser = files_parser("make flash", __doc__)
     parser.add_argument("--tool", default="xsct", choices=("xsct", "openocd"), help="for the processor")
+    parser.add_argument("--no-firmware", action="store_true", help="load and set up, but start no program")
     arguments = parser.parse_args()
+    elf = None if arguments.no_firmware else arguments.elf
     ps7_init = FOLDER / "ps7_init.tcl"
     entry = 0x00100000
     if not arguments.dry_run:
-        need_files(
-            bit=(arguments.bit, "make bitstream"), xsa=(arguments.xsa, "make xsa"), elf=(arguments.elf, "make firmware")
-        )
+        need_files(bit=(arguments.bit, "make bitstream"), xsa=(arguments.xsa, "make xsa"))
+        if elf:
+            need_files(elf=(elf, "make firmware"))
         for tool in ("openFPGALoader", arguments.tool):
             need_tool(tool, WHERE[tool])
-        entry = entry_of(arguments.elf)
+        entry = entry_of(elf) if elf else 0
         ps7_init = take_ps7_init(arguments.xsa, FOLDER)
-    run_steps(steps(arguments.tool, arguments.bit, arguments.elf, ps7_init, entry), dry=arguments.dry_run)
+    run_steps(steps(arguments.tool, arguments.bit, elf, ps7_init, entry), dry=arguments.dry_run)
     if not arguments.dry_run:
-        print("The firmware runs. docs/board.md says what is to be seen now.")
+        state = "The firmware runs" if elf else "The logic runs, the processor waits"
+        print(f"{state}. docs/board.md says what is to be seen now.")
     return 0
 
 

@@ -100,6 +100,18 @@ def test_a_dry_run_prints_what_a_run_runs(
     assert [len(command) for command in printed] == [len(command) for command in really]
 
 
+@pytest.mark.parametrize("tool", ["xsct", "openocd"])
+def test_flash_without_firmware(
+    tool: str, log: Path, files: dict[str, Path], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    put(log, tool, "openFPGALoader")
+    files["elf"].unlink()
+    assert run(monkeypatch, flash.main, files, "--tool", tool, "--no-firmware") == 0
+    last = log.read_text().splitlines()[2]
+    assert last.endswith("ps7_init.tcl" if tool == "xsct" else "ps7_init.tcl}")
+    assert "the processor waits" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("name", ["bit", "xsa", "elf"])
 def test_flash_without_a_file(name: str, log: Path, files: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
     put(log, *TOOLS["flash"])
@@ -263,6 +275,7 @@ def test_xsct_resets_before_the_bitstream_and_starts_after_it(tmp_path: Path) ->
     assert first.index("rst -system") < first.index("ps7_init")
     last = tcl("xsct.tcl", ["run", init, "a.elf"], "", tmp_path)
     assert "rst -system" not in last
+    assert "dow" not in " ".join(tcl("xsct.tcl", ["run", init], "", tmp_path))
     order = [last.index(line) for line in ("ps7_post_config", "rst -processor", "dow a.elf", "con")]
     assert order == sorted(order)
 
@@ -274,6 +287,8 @@ def test_openocd_answers_as_xsct_does(tmp_path: Path) -> None:
     assert tcl("openocd.tcl", [], "mwr -force 0xF8000008 0xDF0D", tmp_path) == ["mww 0xF8000008 0xDF0D"]
     first = tcl("openocd.tcl", [], f"ps_init {tmp_path / 'ps7_init.tcl'}", tmp_path)
     assert first == ["init", "targets zynq.cpu0", "halt", "ps7_init", "shutdown"]
+    waiting = tcl("openocd.tcl", [], f"ps_run {tmp_path / 'ps7_init.tcl'}", tmp_path)
+    assert waiting[3:] == ["ps7_post_config", "shutdown"]
     last = tcl("openocd.tcl", [], f"ps_run {tmp_path / 'ps7_init.tcl'} a.elf 0x00100040", tmp_path)
     assert last[3:] == ["ps7_post_config", "load_image a.elf", "resume 0x00100040", "shutdown"]
 

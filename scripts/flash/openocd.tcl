@@ -27,10 +27,12 @@ proc ps_init {ps7_init} {
     shutdown
 }
 
-proc ps_run {ps7_init elf entry} {
+proc ps_run {ps7_init {elf ""} {entry 0}} {
     ps_begin $ps7_init
     ps7_post_config
-    load_image $elf
-    resume $entry
+    if {$elf ne ""} {
+        load_image $elf
+        resume $entry
+    }
     shutdown
 }

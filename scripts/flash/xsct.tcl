@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The processor by way of JTAG, in two steps with the bitstream between them:
 #   xsct scripts/flash/xsct.tcl init <ps7_init.tcl>
-#   xsct scripts/flash/xsct.tcl run <ps7_init.tcl> <elf>
+#   xsct scripts/flash/xsct.tcl run <ps7_init.tcl> [elf]
+# Without a program the registers can be read and written by hand.
 
 lassign $argv step ps7_init elf
 connect
@@ -16,9 +17,11 @@ if {$step eq "init"} {
     source $ps7_init
     # Opens the way between processor and logic; the logic has to be there by now.
     ps7_post_config
-    targets -set -nocase -filter {name =~ "*A9*#0"}
-    rst -processor
-    dow $elf
-    con
+    if {$elf ne ""} {
+        targets -set -nocase -filter {name =~ "*A9*#0"}
+        rst -processor
+        dow $elf
+        con
+    }
 }
 disconnect
