@@ -51,6 +51,8 @@ def test_every_core_is_packaged_with_its_interfaces(name: str, tmp_path: Path) -
     assert len(inferred) >= len(joined) + 1
     if name in AXI:
         assert joined == AXI[name] | {found for found in joined if found.startswith("view_")}
+    mapped = {call.split()[1] for call in outcome.calls if call.startswith("ipx::add_memory_map")}
+    assert mapped == {found for found in joined if found.startswith("s_axil")}
     assert outcome.calls[-3].startswith("ipx::save_core")
 
 
@@ -60,6 +62,7 @@ def test_every_core_is_packaged_with_its_interfaces(name: str, tmp_path: Path) -
         (("{s_axis_tdata}", "{s_axis_data}"), "there is no port named s_axis_data"),
         (("xilinx.com:interface:axis_rtl:1.0", "xilinx.com:interface:axis:1.0"), "there is no interface"),
         (("set clocks {{clk}}", "set clocks {{clock}}"), "there is no port named clock"),
+        (("set registers {}", "set registers {{s_axis2}}"), "there is no bus named s_axis2"),
         (("set top rgb2gray", "set top rgb2grey"), "the top is rgb2grey, not rgb2gray"),
         (("rgb2gray.v}", "rgb2grey.v}"), "there is no file"),
         (("set wanted_version 2023.2", "set wanted_version 2022.1"), "the scripts are for 2022.1|for 2022.1"),

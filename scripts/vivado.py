@@ -115,6 +115,13 @@ def interfaces_of(ports: list[Port]) -> dict[str, tuple[str, list[str]]]:
     return found
 
 
+def description_of(core: Core) -> str:
+    """What the core's page says first, without what Tcl may take for its own; its name if it has no page."""
+    page = ROOT / f"docs/cores/{core.name}.md"
+    text = page.read_text(encoding="utf-8").splitlines()[2] if page.is_file() else core.name
+    return re.sub(r"[^\w .,;:()/+-]", "", text)
+
+
 def package_inputs(core: Core, out: Path = PACKAGES) -> Path:
     """What package_ip.tcl reads for one core."""
     ports = ports_of(core, {})
@@ -123,7 +130,6 @@ def package_inputs(core: Core, out: Path = PACKAGES) -> Path:
     for name, (vlnv, members) in interfaces_of(ports).items():
         words += [name, vlnv, listed(members)]
     headers = headers_of(core.sources)
-    page = (ROOT / f"docs/cores/{core.name}.md").read_text(encoding="utf-8").splitlines()
     return write_inputs(
         out / "inputs" / f"{core.name}.tcl",
         {
@@ -131,11 +137,12 @@ def package_inputs(core: Core, out: Path = PACKAGES) -> Path:
             "out": quoted(out / core.name),
             "part": part(),
             "top": core.toplevel,
-            "description": quoted(re.sub(r"[^\w .,;:()/+-]", "", page[2])),
+            "description": quoted(description_of(core)),
             "sources": listed([*core.sources, *headers]),
             "headers": listed(headers),
             "include_dirs": listed([INCLUDES]),
             "interfaces": quoted_list(words),
+            "registers": listed([name for name in interfaces_of(ports) if name.startswith("s_axil")]),
             "clocks": listed([name for name in ("clk", "pix_clk") if name in names]),
             "resets": listed([name for name in ("rst",) if name in names]),
         },

@@ -44,6 +44,15 @@ foreach name $resets {
 foreach {name vlnv ports} $interfaces {
     ipx::associate_bus_interfaces -busif $name -clock clk $core
 }
+# What a block design needs to give the registers an address.
+foreach name $registers {
+    ipx::add_memory_map $name $core
+    set_property slave_memory_map_ref $name [ipx::get_bus_interfaces $name -of_objects $core]
+    set map [ipx::get_memory_maps $name -of_objects $core]
+    set block [ipx::add_address_block registers $map]
+    set_property range 4096 $block
+    set_property usage register $block
+}
 foreach name $resets {
     ipx::associate_bus_interfaces -clock clk -reset $name $core
 }

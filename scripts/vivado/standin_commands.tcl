@@ -77,6 +77,9 @@ foreach {name flags valued least most where} {
     ipx::remove_all_bus_interface {-quiet} {} 1 1 script
     ipx::infer_bus_interface {-quiet} {} 3 3 script
     ipx::get_bus_interfaces {-quiet} {-of_objects -filter} 0 1 script
+    ipx::add_memory_map {-quiet} {} 2 2 script
+    ipx::get_memory_maps {-quiet} {-of_objects -filter} 0 1 script
+    ipx::add_address_block {-quiet} {} 2 2 script
     ipx::add_bus_parameter {-quiet} {} 2 2 script
     ipx::associate_bus_interfaces {-quiet -clear} {-busif -clock -reset} 1 1 script
     ipx::create_xgui_files {-quiet} {} 1 1 script

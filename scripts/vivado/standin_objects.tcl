@@ -30,6 +30,8 @@ namespace eval standin {
             name "" version "" display_name "" description "" vendor "" library "" supported_families ""
         }
         parameter {value ""}
+        bus {slave_memory_map_ref ""}
+        address_block {range "" usage {register memory reserved} base_address ""}
     }
 }
 

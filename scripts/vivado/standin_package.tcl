@@ -65,3 +65,17 @@ proc standin::do_ipx_associate_bus_interfaces {options rest} {
         }
     }
 }
+
+proc standin::do_ipx_add_memory_map {options rest} {
+    kind_of [lindex $rest 1]
+    return [add memory_map [lindex $rest 0]]
+}
+
+proc standin::do_ipx_get_memory_maps {options rest} {
+    return [lookup memory_map $options $rest]
+}
+
+proc standin::do_ipx_add_address_block {options rest} {
+    kind_of [lindex $rest 1]
+    return [add address_block [lindex $rest 0]]
+}
