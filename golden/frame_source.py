@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `frame_source` makes of memory: the bytes of a picture to frames, and the places of a frame on the pixel clock."""
+"""What `frame_source` makes of memory: bytes of a picture to frames, and the places of a frame on the pixel clock."""
 
 from dataclasses import dataclass
 
@@ -27,7 +27,11 @@ class Places:
         """(de, hsync, vsync) so many cycles after the first pixel of a frame."""
         y, x = divmod(cycle % (self.h_total * self.v_total), self.h_total)
         of_line, of_frame = x - self.width - self.h_front, y - self.height - self.v_front
-        return int(x < self.width and y < self.height), int(0 <= of_line < self.h_sync), int(0 <= of_frame < self.v_sync)
+        return (
+            int(x < self.width and y < self.height),
+            int(0 <= of_line < self.h_sync),
+            int(0 <= of_frame < self.v_sync),
+        )
 
 
 def memory_of(rgb: np.ndarray) -> bytes:

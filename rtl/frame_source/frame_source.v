@@ -8,7 +8,7 @@
 // picture itself: what is written meanwhile shows up in between. With cfg_enable 0 only syncs and black come, and nothing
 // is read.
 //
-// Latency     2 cycles of pix_clk and 7 of clk, at most, from the last pixel of a frame at out_* to the first address of the
+// Latency     1 cycle of pix_clk and 6 of clk, at most, from the last pixel of a frame at out_* to the first address of the
 //             next, if nothing is under way.
 // Throughput  one pixel a cycle of pix_clk, as long as memory gives a beat for every two of them in the mean, and FIFO_DEPTH
 //             beats cover its pauses. MAX_OUTSTANDING bursts of 16 beats cover its latency.

@@ -57,8 +57,9 @@ class AxiReadMemory:
         rng: source of stalls and latencies.
 
     `regions` are the bytes from each address; a read of anything else fails the test. `latency` is the range of clocks
-    from an address to its first beat. While `asleep` no beat comes, and no address is taken if `deaf` too. `bad_beat(burst)`
-    gives the beat that is answered with an error. `most` is the greatest number of bursts that was under way.
+    from an address to its first beat. While `asleep` no beat comes, and no address is taken if `deaf` too.
+    `bad_beat(burst)` gives the beat that is answered with an error. `most` is the greatest number of bursts that was
+    under way.
     """
 
     def __init__(self, dut: HierarchyObject, prefix: str, clock: Any, reset: Any, rng: Random) -> None:
@@ -100,7 +101,9 @@ class AxiReadMemory:
     def _beat(self, address: int) -> int:
         for base, data in self.regions.items():
             if base <= address < base + len(data):
-                return int.from_bytes(data[address - base : address - base + BEAT_BYTES].ljust(BEAT_BYTES, b"\xa5"), "little")
+                return int.from_bytes(
+                    data[address - base : address - base + BEAT_BYTES].ljust(BEAT_BYTES, b"\xa5"), "little"
+                )
         self.fail(f"0x{address:x} was read, which is no part of a picture")
         return 0
 

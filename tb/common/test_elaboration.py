@@ -82,6 +82,14 @@ LIMITS = [
         for name in ("MAX_WIDTH", "MAX_HEIGHT")
     ),
     *limits("video_out", "DELAY", (16, 65538), "ERROR_delay_must_be_16_to_65538_cycles"),
+    *(
+        Limit("frame_source", "FIFO_DEPTH", illegal, legal, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4")
+        for illegal, legal in ((2, 4), (1000, 1024))
+    ),
+    *limits(
+        "frame_source", "PIXELS", (1, 268435456), "ERROR_a_picture_must_have_1_to_268435456_pixels", "frame_reader"
+    ),
+    *limits("frame_source", "MAX_OUTSTANDING", (1, 8), "ERROR_max_outstanding_must_be_1_to_8"),
     Limit("video_out", "FIFO_DEPTH", 2, 4, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4"),
     Limit("video_out", "FIFO_DEPTH", 1000, 1024, "ERROR_fifo_depth_must_be_a_power_of_two_of_at_least_4"),
     *limits(

@@ -37,7 +37,7 @@ FRAME_CYCLES = PLACES.h_total * PLACES.v_total
 LATE_PIX, LATE_CLK = 8, 3
 """A beat is in time if it is taken so many cycles of each clock before its pixel is on out_*; it may be if less."""
 FIRST = 5.5
-"""Cycles of clk, after the last pixel was seen, between what still belongs to a frame and the first address of the next."""
+"""Cycles of clk, after the last pixel was seen: an address that comes sooner is of the frame that ended."""
 BASES = (0x0000_0000, 0x1000_0000, 0x1FFF_F000, 0xFFF0_0000)
 
 
@@ -254,5 +254,3 @@ def all_whole(verdicts: Iterable[Verdict]) -> None:
     """Assert that each frame but that after reset was shown, whole."""
     wrong = [index for index, verdict in enumerate(verdicts) if index and verdict.whole != PIXELS]
     assert not wrong, f"frames {wrong} are not whole; {where()}"
-
-

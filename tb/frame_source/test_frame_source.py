@@ -20,7 +20,7 @@ from tb.frame_source.tb_frame_source import (
     all_whole,
 )
 
-# Periods of pix_clk in ns, against 10 of clk. The last asks for more beats than memory gives, where lines have no blanking.
+# Periods of pix_clk in ns, against 10 of clk. The last asks for more than memory gives where lines have no blanking.
 PIX_NS = {"half": 20.0, "720p": 13.468, "near_equal": 10.002, "1080p": 6.734, "triple": 3.334}
 IS_DENSE = PLACES.h_total < 2 * PLACES.width
 HAS_BURSTS = BURSTS > 2
@@ -173,7 +173,7 @@ async def an_error_ends_the_reading(dut: HierarchyObject) -> None:
 @cocotb.test()
 @cocotb.parametrize(memory=["calm", "sleepy"])
 async def enable_at_any_moment(dut: HierarchyObject, memory: str) -> None:
-    """A frame is the picture or black, by what was asked for before it; black ones are not read, also if memory sleeps."""
+    """A frame is the picture or black, by what was asked for before it; black ones are not read."""
     bench = Bench(dut)
     bench.configure(0, bench.bases[0])
     await bench.reset()
