@@ -105,9 +105,10 @@ proc standin::do_synth_design {options rest} {
         }
     }
     add design current
+    variable known
     foreach kind {port cell pin net} {
         foreach name $facts(${kind}s) {
-            add $kind $name
+            set known($kind|$name) {}
         }
     }
     # What the IP brings, as far as constraints of ours name it.

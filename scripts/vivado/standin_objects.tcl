@@ -53,25 +53,17 @@ proc standin::name_of {object} {
     return [string range $object [string first | $object]+1 end]
 }
 
-# Brackets in names are bits, not sets of characters.
-proc standin::matches {pattern name} {
-    return [string match [string map {\[ \\\[ \] \\\]} $pattern] $name]
-}
-
 # All objects of a kind whose names match one of the patterns; each pattern has to match something.
 proc standin::find {kind patterns options} {
     variable known
     set found {}
     foreach pattern $patterns {
-        set before [llength $found]
-        foreach object [lsort [array names known $kind|*]] {
-            if {[matches $pattern [name_of $object]]} {
-                lappend found $object
-            }
-        }
-        if {[llength $found] == $before && ![dict exists $options -quiet]} {
+        # Brackets in names are bits, not sets of characters.
+        set more [array names known [string map {\[ \\\[ \] \\\]} $kind|$pattern]]
+        if {[llength $more] == 0 && ![dict exists $options -quiet]} {
             fail "there is no $kind named $pattern"
         }
+        lappend found {*}[lsort $more]
     }
     return $found
 }
