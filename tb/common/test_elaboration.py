@@ -125,6 +125,8 @@ def test_parameter_limits(limit: Limit) -> None:
 
 
 def test_every_guard_has_its_limits() -> None:
-    sources = [path.read_text(encoding="utf-8") for path in (ROOT / "rtl").glob("*/*.v")]
+    # rtl/top is no core: tb/top/test_source_switch.py has its limits.
+    paths = [path for path in (ROOT / "rtl").glob("*/*.v") if path.parent.name != "top"]
+    sources = [path.read_text(encoding="utf-8") for path in paths]
     guards = {error for source in sources for error in re.findall(r"\bERROR_\w+", source)}
     assert guards == {limit.error for limit in LIMITS}
