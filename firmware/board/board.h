@@ -23,5 +23,6 @@ static_assert(BOARD_AUTOPILOT_BAUD >= 57600U && BOARD_GROUND_BAUD >= 57600U,
 
 #define BOARD_FRAME_WIDTH_PX 1280U
 #define BOARD_FRAME_HEIGHT_PX 720U
+#define BOARD_STORED_PICTURE_ADDRESS 0x04000000U // what frame_source plays; beyond what the firmware uses
 
 #endif

@@ -48,13 +48,19 @@ static void handle(void)
 const char *landing_hw_fault(void)
 {
     const uint32_t info = get(LANDING_REG_RING_INFO_OFFSET);
+    const uint32_t version = get(LANDING_REG_VERSION_OFFSET);
 
     if (get(LANDING_REG_ID_OFFSET) != LANDING_REG_ID_VALUE_RESET) {
         return "Touchdown: no landing_core, load the bitstream";
     }
-    if ((get(LANDING_REG_VERSION_OFFSET) & LANDING_REG_VERSION_MAJOR_MASK) >> LANDING_REG_VERSION_MAJOR_SHIFT !=
+    if ((version & LANDING_REG_VERSION_MAJOR_MASK) >> LANDING_REG_VERSION_MAJOR_SHIFT !=
         LANDING_REG_VERSION_MAJOR_RESET) {
         return "Touchdown: bitstream and firmware do not match";
+    }
+    // A younger bitstream only has more.
+    if ((version & LANDING_REG_VERSION_MINOR_MASK) >> LANDING_REG_VERSION_MINOR_SHIFT <
+        LANDING_REG_VERSION_MINOR_RESET) {
+        return "Touchdown: bitstream older than the firmware";
     }
     if ((info & LANDING_REG_RING_INFO_BUFFERS_MASK) >> LANDING_REG_RING_INFO_BUFFERS_SHIFT != LANDING_RING_BUFFERS ||
         (info & LANDING_REG_RING_INFO_MAX_OBJECTS_MASK) >> LANDING_REG_RING_INFO_MAX_OBJECTS_SHIFT >

@@ -7,6 +7,7 @@
 
 #include "app.h"
 #include "board.h"
+#include "display_hw.h"
 #include "gic.h"
 #include "keep.h"
 #include "landing_hw.h"
@@ -28,7 +29,9 @@ _Static_assert((int)UARTS == (int)VITALS_WIRES, "each UART is a wire that is wat
 static struct app app;
 static struct landing_record record;
 static struct vitals vitals;
+static struct picture picture;
 static bool has_hardware;
+static bool has_display;
 
 static enum uart_id uart_of(enum app_link link)
 {
@@ -118,6 +121,10 @@ static void take_frame(uint64_t now_us)
         (void)app_on_record(&app, &record, (size_t)size, now_us);
         landing_hw_adapt(app_min_area_px(&app), app_threshold_register(&app));
         vitals_frame(&vitals, now_us, clock_us());
+        if (has_display) {
+            app_picture(&app, &picture);
+            display_hw_show(&picture);
+        }
     } else {
         app_on_lost_record(&app);
     }
@@ -139,6 +146,18 @@ static void tell_vitals(uint64_t now_us)
     app_on_vitals(&app, &own);
 }
 
+static void poll_display(void)
+{
+    const bool frames = app.last_frame_number != 0U && !app.camera_lost;
+    const struct display_lights lights = {
+        .frames = frames,
+        .pad = frames && app.has_seen_pad,
+        .lidar = app.lidar_worked,
+    };
+
+    display_hw_poll(&lights);
+}
+
 static void tick(uint64_t now_us)
 {
     static uint64_t next_complaints_us;
@@ -157,6 +176,9 @@ static void tick(uint64_t now_us)
     if (now_us >= next_complaints_us) {
         const struct app_complaints complaints = landing_hw_complaints();
         app_on_complaints(&app, &complaints, now_us);
+        if (has_display) {
+            poll_display();
+        }
         next_complaints_us = now_us + COMPLAINTS_PERIOD_US;
     }
     app_tick(&app, now_us, &lidar);
@@ -221,6 +243,10 @@ int main(void)
     app_load_parameters(&app, keep.parameters, sizeof keep.parameters);
     if (has_hardware) {
         landing_hw_start(app_min_area_px(&app), app_threshold_register(&app));
+        has_display = display_hw_is_there();
+        if (has_display) {
+            display_hw_start();
+        }
     }
     vitals_init(&vitals, clock_us());
     watchdog_start();

@@ -313,7 +313,19 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         release_landing_target(app, record, &pad, &altitude, now_us);
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
+    app->seen_camera = camera;
+    app->seen_altitude = altitude;
+    app->has_seen_pad = found;
+    if (found) {
+        app->seen_pad = pad;
+    }
     return 0;
+}
+
+void app_picture(const struct app *app, struct picture *picture)
+{
+    picture_of(picture, &app->seen_camera, app->has_seen_pad ? &app->seen_pad : NULL, &app->seen_altitude,
+               landing_phase_table[app->flight.landing.phase].name);
 }
 
 static void on_autopilot(struct app *app, const struct mavlink_in_message *message, uint64_t now_us)

@@ -17,6 +17,7 @@
 #include "links.h"
 #include "mavlink_in.h"
 #include "mavlink_out.h"
+#include "picture.h"
 #include "record.h"
 #include "release.h"
 #include "timesync.h"
@@ -123,6 +124,10 @@ struct app {
     uint32_t health[APP_HEALTH_FIELDS];
     uint32_t detect_options; // DETECT_*
     struct detect_scratch scratch;
+    struct camera seen_camera; // of the newest record, as what follows
+    struct pad_estimate seen_pad;
+    struct altitude seen_altitude;
+    bool has_seen_pad; // found, or bridged
 };
 
 // `fault` is NULL, or one sentence of at most 50 characters that says why
@@ -156,6 +161,9 @@ void app_on_complaints(struct app *app, const struct app_complaints *complaints,
 // What MIN_AREA should be from now on. Rises while records overflow and falls
 // while they are far from full, so that grass does not push the pad out.
 uint32_t app_min_area_px(const struct app *app);
+
+// What a monitor should show of the newest record, if there was one.
+void app_picture(const struct app *app, struct picture *picture);
 
 // What THRESHOLD should hold from now on.
 uint32_t app_threshold_register(const struct app *app);

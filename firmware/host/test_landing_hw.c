@@ -116,7 +116,8 @@ static void test_complaints(void)
 static void fit(void)
 {
     registers[LANDING_REG_ID_OFFSET / 4U] = LANDING_REG_ID_VALUE_RESET;
-    registers[LANDING_REG_VERSION_OFFSET / 4U] = LANDING_REG_VERSION_MAJOR_RESET << LANDING_REG_VERSION_MAJOR_SHIFT;
+    registers[LANDING_REG_VERSION_OFFSET / 4U] = LANDING_REG_VERSION_MAJOR_RESET << LANDING_REG_VERSION_MAJOR_SHIFT |
+                                                 LANDING_REG_VERSION_MINOR_RESET << LANDING_REG_VERSION_MINOR_SHIFT;
     registers[LANDING_REG_RING_INFO_OFFSET / 4U] =
         LANDING_RING_BUFFERS << LANDING_REG_RING_INFO_BUFFERS_SHIFT |
         LANDING_RECORD_MAX_OBJECTS << LANDING_REG_RING_INFO_MAX_OBJECTS_SHIFT;
@@ -143,6 +144,11 @@ static void test_faults(void)
     fit();
     registers[LANDING_REG_VERSION_OFFSET / 4U] += 1U << LANDING_REG_VERSION_MAJOR_SHIFT;
     CHECK(refuses("do not match"));
+    fit();
+    registers[LANDING_REG_VERSION_OFFSET / 4U] -= 1U << LANDING_REG_VERSION_MINOR_SHIFT;
+    CHECK(refuses("older"));
+    registers[LANDING_REG_VERSION_OFFSET / 4U] += 2U << LANDING_REG_VERSION_MINOR_SHIFT;
+    CHECK(landing_hw_fault() == NULL);
     fit();
     registers[LANDING_REG_RING_INFO_OFFSET / 4U] -= 1U << LANDING_REG_RING_INFO_BUFFERS_SHIFT;
     CHECK(refuses("another size"));

@@ -48,6 +48,7 @@ int main(void)
     test_crash();
     test_detect();
     test_detect_not();
+    test_display_hw();
     test_factor_search();
     test_flight();
     test_flight_modes();
@@ -63,6 +64,7 @@ int main(void)
     test_pad_fit();
     test_pad_view();
     test_parameters();
+    test_picture();
     test_rates();
     test_record();
     test_release();

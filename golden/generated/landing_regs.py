@@ -117,6 +117,9 @@ TIME_HI_US_SHIFT = 0
 SCRATCH_OFFSET = 0x5C
 SCRATCH_VALUE_MASK = 0xFFFFFFFF
 SCRATCH_VALUE_SHIFT = 0
+FEATURES_OFFSET = 0x60
+FEATURES_DISPLAY_MASK = 0x00000001
+FEATURES_DISPLAY_SHIFT = 0
 
 REGISTERS = (
     Register(
@@ -129,7 +132,7 @@ REGISTERS = (
         0x04,
         (
             Field("patch", 0, 8, "constant", 0x0),
-            Field("minor", 8, 8, "constant", 0x1),
+            Field("minor", 8, 8, "constant", 0x2),
             Field("major", 16, 8, "constant", 0x0),
         ),
     ),
@@ -278,6 +281,11 @@ REGISTERS = (
         "SCRATCH",
         0x5C,
         (Field("value", 0, 32, "rw", 0x0),),
+    ),
+    Register(
+        "FEATURES",
+        0x60,
+        (Field("display", 0, 1, "ro", 0x0),),
     ),
 )
 

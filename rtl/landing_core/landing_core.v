@@ -25,7 +25,8 @@ module landing_core #(
     parameter FIFO_DEPTH = 1024,
     parameter VSYNC_ACTIVE = 1,
     parameter MAX_OBJECTS = 256,
-    parameter CLK_PER_US = 100
+    parameter CLK_PER_US = 100,
+    parameter HAS_DISPLAY = 0  // what FEATURES.display says
 ) (
     input  wire        clk,
     input  wire        rst,
@@ -238,6 +239,7 @@ module landing_core #(
         .lidar_status_too_short(lidar_too_short),
         .time_lo_us(time_us_reg[31:0]),
         .time_hi_us(time_us_reg[63:32]),
+        .features_display(HAS_DISPLAY != 0),
         .irq(irq)
     );
 

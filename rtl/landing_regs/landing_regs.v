@@ -70,6 +70,7 @@ module landing_regs (
     input wire lidar_status_too_short,
     input wire [31:0] time_lo_us,
     input wire [31:0] time_hi_us,
+    input wire features_display,
     output wire irq
 );
 
@@ -258,7 +259,8 @@ module landing_regs (
         case (aw_word_reg)
             10'h0, 10'h1, 10'h2, 10'h3, 10'h4, 10'h5, 10'h6, 10'h7,
             10'h8, 10'h9, 10'hA, 10'hB, 10'hC, 10'hD, 10'hE, 10'hF,
-            10'h10, 10'h11, 10'h12, 10'h13, 10'h14, 10'h15, 10'h16, 10'h17:
+            10'h10, 10'h11, 10'h12, 10'h13, 10'h14, 10'h15, 10'h16, 10'h17,
+            10'h18:
                 write_mapped = 1'b1;
             default: write_mapped = 1'b0;
         endcase
@@ -268,7 +270,7 @@ module landing_regs (
         read_mapped = 1'b1;
         case (read_word)
             10'h0: read_data = 32'h5444574E;  // ID
-            10'h1: read_data = {8'h0, 8'h0, 8'h1, 8'h0};  // VERSION
+            10'h1: read_data = {8'h0, 8'h0, 8'h2, 8'h0};  // VERSION
             10'h2: read_data = {29'h0, ctrl_label_zeros_reg, ctrl_dark_is_one_reg, ctrl_enable_reg};  // CTRL
             10'h3: read_data = {frame_size_height_reg, frame_size_width_reg};  // FRAME_SIZE
             10'h4: read_data = {8'h0, threshold_flat_limit_reg, 7'h0, threshold_factor_reg};  // THRESHOLD
@@ -311,6 +313,7 @@ module landing_regs (
             10'h15: read_data = time_lo_us;  // TIME_LO
             10'h16: read_data = time_hi_us_reg;  // TIME_HI
             10'h17: read_data = scratch_value_reg;  // SCRATCH
+            10'h18: read_data = {31'h0, features_display};  // FEATURES
             default: begin
                 read_data = 32'h0;
                 read_mapped = 1'b0;

@@ -12,11 +12,23 @@
 `default_nettype none
 
 module board_video #(
-    parameter MAX_WIDTH  = 1280,
-    parameter MAX_HEIGHT = 720,
-    parameter CLK_PER_US = 100,
-    parameter QUIET_US   = 100,
-    parameter HOLD_US    = 1000
+    parameter MAX_WIDTH    = 1280,
+    parameter MAX_HEIGHT   = 720,
+    parameter CAMERA_FIFO  = 1024,
+    parameter DELAY        = 13200,
+    parameter MONITOR_FIFO = 16384,
+    // Timing of the built-in sources.
+    parameter WIDTH        = 1280,
+    parameter H_FRONT      = 110,
+    parameter H_SYNC       = 40,
+    parameter H_TOTAL      = 1650,
+    parameter HEIGHT       = 720,
+    parameter V_FRONT      = 5,
+    parameter V_SYNC       = 5,
+    parameter V_TOTAL      = 750,
+    parameter CLK_PER_US   = 100,
+    parameter QUIET_US     = 100,
+    parameter HOLD_US      = 1000
 ) (
     input wire clk,
     input wire rst,
@@ -163,7 +175,16 @@ module board_video #(
       .q  (move_in_pix)
   );
 
-  pattern_source pattern_camera (
+  pattern_source #(
+      .WIDTH  (WIDTH),
+      .H_FRONT(H_FRONT),
+      .H_SYNC (H_SYNC),
+      .H_TOTAL(H_TOTAL),
+      .HEIGHT (HEIGHT),
+      .V_FRONT(V_FRONT),
+      .V_SYNC (V_SYNC),
+      .V_TOTAL(V_TOTAL)
+  ) pattern_camera (
       .pix_clk  (pix_clk),
       .pix_rst  (pix_hold),
       .move     (move_in_pix),
@@ -173,7 +194,16 @@ module board_video #(
       .out_vsync(pattern[0])
   );
 
-  frame_source stored_camera (
+  frame_source #(
+      .WIDTH  (WIDTH),
+      .H_FRONT(H_FRONT),
+      .H_SYNC (H_SYNC),
+      .H_TOTAL(H_TOTAL),
+      .HEIGHT (HEIGHT),
+      .V_FRONT(V_FRONT),
+      .V_SYNC (V_SYNC),
+      .V_TOTAL(V_TOTAL)
+  ) stored_camera (
       .clk(clk),
       .rst(rst),
       .cfg_enable(source == 2'd2 && !hold),
@@ -233,9 +263,11 @@ module board_video #(
   wire view_binary_tvalid, view_binary_tuser, view_binary_tlast;
 
   landing_core #(
-      .MAX_WIDTH (MAX_WIDTH),
-      .MAX_HEIGHT(MAX_HEIGHT),
-      .CLK_PER_US(CLK_PER_US)
+      .MAX_WIDTH  (MAX_WIDTH),
+      .MAX_HEIGHT (MAX_HEIGHT),
+      .FIFO_DEPTH (CAMERA_FIFO),
+      .CLK_PER_US (CLK_PER_US),
+      .HAS_DISPLAY(1)
   ) landing (
       .clk(clk),
       .rst(rst),
@@ -299,6 +331,10 @@ module board_video #(
   );
 
   display #(
+      .MAX_WIDTH (MAX_WIDTH),
+      .MAX_HEIGHT(MAX_HEIGHT),
+      .DELAY     (DELAY),
+      .FIFO_DEPTH(MONITOR_FIFO),
       .CLK_PER_US(CLK_PER_US)
   ) screen (
       .clk(clk),

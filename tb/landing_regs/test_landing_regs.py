@@ -17,7 +17,7 @@ from tb.common.figures import page_figures
 from tb.common.run import where
 from tb.common.stream import CLOCK_NS, stalls
 
-UNMAPPED = [0x60, 0x64, 0x7C, 0x80, 0x100, 0x400, 0x7FC, 0x800, 0xFFC]
+UNMAPPED = [0x64, 0x68, 0x7C, 0x80, 0x100, 0x400, 0x7FC, 0x800, 0xFFC]
 LIMIT_US = 300  # of simulated time; no test comes near
 
 
@@ -216,8 +216,8 @@ async def back_to_back(dut: HierarchyObject, stalled: float) -> None:
     bench = Bench(dut, Random(getrandbits(32)))
     await bench.reset()
     bench.stall(stalled)
-    writes = [(bench.rng.choice([regs.SCRATCH_OFFSET, 0x60]), bench.rng.getrandbits(32)) for _ in range(40)]
-    reads = [bench.rng.choice([regs.ID_OFFSET, regs.VERSION_OFFSET, 0x60]) for _ in range(40)]
+    writes = [(bench.rng.choice([regs.SCRATCH_OFFSET, 0x64]), bench.rng.getrandbits(32)) for _ in range(40)]
+    reads = [bench.rng.choice([regs.ID_OFFSET, regs.VERSION_OFFSET, 0x64]) for _ in range(40)]
     channel = bench.master.read_if
     begin = cocotb.utils.get_sim_time("ns")
     for address, data in writes:
