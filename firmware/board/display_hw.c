@@ -123,6 +123,11 @@ void display_hw_show(const struct picture *picture)
     set_control(false);
 }
 
+bool display_hw_shows_camera(void)
+{
+    return now.source == SOURCE_CAMERA;
+}
+
 void display_hw_poll(const struct display_lights *lights)
 {
     static const uint32_t sources[] = {

@@ -26,4 +26,7 @@ void display_hw_show(const struct picture *picture);
 // 1 and 0: 0 camera, 1 pattern, 2 pattern that moves, 3 stored picture.
 void display_hw_poll(const struct display_lights *lights);
 
+// False from the moment on in which display_hw_poll chose another source.
+bool display_hw_shows_camera(void);
+
 #endif

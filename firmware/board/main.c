@@ -156,6 +156,7 @@ static void poll_display(void)
     };
 
     display_hw_poll(&lights);
+    app_on_source(&app, display_hw_shows_camera());
 }
 
 static void tick(uint64_t now_us)

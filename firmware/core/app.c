@@ -306,11 +306,14 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     // A prediction is good for a target, not for steering: it neither counts as a frame with the pad nor as one without.
     if (track != TRACK_BRIDGED) {
-        flight_on_frame(&app->flight, &app->attitude, found ? &pad : NULL, &altitude, exposed_us, now_us);
+        flight_on_frame(&app->flight, &app->attitude, found && !app->staged ? &pad : NULL, &altitude, exposed_us,
+                        now_us);
     }
     if (found) {
         app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
-        release_landing_target(app, record, &pad, &altitude, now_us);
+        if (!app->staged) {
+            release_landing_target(app, record, &pad, &altitude, now_us);
+        }
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
     app->seen_camera = camera;
@@ -320,6 +323,11 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         app->seen_pad = pad;
     }
     return 0;
+}
+
+void app_on_source(struct app *app, bool is_camera)
+{
+    app->staged = !is_camera;
 }
 
 void app_picture(const struct app *app, struct picture *picture)
@@ -455,13 +463,15 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
         return;
     }
     if (due(&app->next_heartbeat_us, now_us, HEARTBEAT_PERIOD_US)) {
+        const char *why_not = app->fault == NULL && app->staged ? "Touchdown: pixels are not the camera's" : app->fault;
         for (int link = 0; link < APP_LINKS; link++) {
             links_send(&app->links, (enum app_link)link, bytes,
-                       mavlink_out_heartbeat(&app->links.out[link], app->fault == NULL, bytes));
+                       mavlink_out_heartbeat(&app->links.out[link], why_not == NULL, bytes));
         }
-        if (app->fault != NULL) {
-            links_say(&app->links, MAVLINK_OUT_CRITICAL, app->fault);
-        } else {
+        if (why_not != NULL) {
+            links_say(&app->links, MAVLINK_OUT_CRITICAL, why_not);
+        }
+        if (app->fault == NULL) {
             send_health(app, now_us, lidar);
         }
     }

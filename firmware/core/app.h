@@ -128,6 +128,7 @@ struct app {
     struct pad_estimate seen_pad;
     struct altitude seen_altitude;
     bool has_seen_pad; // found, or bridged
+    bool staged;       // the pixels are not the camera's
 };
 
 // `fault` is NULL, or one sentence of at most 50 characters that says why
@@ -161,6 +162,10 @@ void app_on_complaints(struct app *app, const struct app_complaints *complaints,
 // What MIN_AREA should be from now on. Rises while records overflow and falls
 // while they are far from full, so that grass does not push the pad out.
 uint32_t app_min_area_px(const struct app *app);
+
+// Whether records are of the camera, as they are at first, or of a built-in source: then the pad is told of and shown, but
+// no target goes out, nothing is steered by it, and HEARTBEAT is CRITICAL with the reason.
+void app_on_source(struct app *app, bool is_camera);
 
 // What a monitor should show of the newest record, if there was one.
 void app_picture(const struct app *app, struct picture *picture);

@@ -275,6 +275,48 @@ static void test_health_of_the_board(void)
     CHECK(app.health[APP_HEALTH_LIDAR_AGE_MS] == APP_LIDAR_AGE_MAX_MS);
 }
 
+static void test_other_pixels(void)
+{
+    const struct scene scene = {.height_m = 1.0, .heading_deg = 20.0};
+    struct picture picture;
+
+    test_case("a pad that is not the camera's is shown, and nothing is told to the autopilot");
+    start();
+    scene_clear(&record);
+    scene_paint_pad(&record, &scene);
+    app_on_source(&app, false);
+    app_picture(&app, &picture);
+    CHECK(!picture.has_pad);
+    for (int i = 0; i < 3; i++) {
+        give(0U);
+    }
+    CHECK(messages[APP_LINK_AUTOPILOT] == 0);
+    app_picture(&app, &picture);
+    CHECK(picture.has_pad && picture.boxes[PICTURE_RING].shown);
+    CHECK(strncmp(picture.text[0], "STANDBY ", 8U) == 0);
+    CHECK(app.flight.known.pad_us == 0U);
+    app_tick(&app, 1000U, NULL);
+    CHECK(strcmp(last_text, "Touchdown: pixels are not the camera's") == 0);
+
+    test_case("and the camera's again is");
+    last_text[0] = '\0';
+    app_on_source(&app, true);
+    give(0U);
+    CHECK(messages[APP_LINK_AUTOPILOT] > 0);
+    app_tick(&app, 2001000U, NULL);
+    CHECK(strcmp(last_text, "Touchdown: pixels are not the camera's") != 0);
+
+    test_case("a frame without a pad");
+    const uint32_t number = record.header.frame_number;
+    scene_clear(&record);
+    record.header.frame_number = number;
+    give(0U);
+    give(0U);
+    give(0U);
+    app_picture(&app, &picture);
+    CHECK(!picture.has_pad);
+}
+
 static void test_fault(void)
 {
     const struct app_port port = {.write = count, .context = NULL};
@@ -383,6 +425,7 @@ void test_app(void)
     test_waiting();
     test_health_of_the_board();
     test_fault();
+    test_other_pixels();
     test_no_frames();
     test_lidar_that_is_not_there();
     test_bytes();

@@ -142,6 +142,7 @@ static void test_poll(void)
         registers[DISPLAY_REG_STATUS_OFFSET / 4U] = i << DISPLAY_REG_STATUS_SWITCHES_SHIFT;
         display_hw_poll(&dark);
         CHECK(reg(DISPLAY_REG_CTRL_OFFSET) == sources[i]);
+        CHECK(display_hw_shows_camera() == (i == 0U));
         CHECK(reg(DISPLAY_REG_LEDS_OFFSET) == 0U);
     }
     registers[DISPLAY_REG_STATUS_OFFSET / 4U] = DISPLAY_REG_STATUS_CLOCK_RUNS_MASK;

@@ -47,6 +47,42 @@ def noise(rng: Random, width: int, height: int, bits: int) -> np.ndarray:
     return np.array([[rng.getrandbits(bits) for _ in range(width)] for _ in range(height)])
 
 
+class Monitor:
+    """Takes what comes on `out_*`; after a reset from the first vsync on."""
+
+    def __init__(self, dut: HierarchyObject) -> None:
+        self.frames: list[list[int]] = []
+        """Pixels of each frame."""
+        cocotb.start_soon(self._watch(dut))
+
+    async def _watch(self, dut: HierarchyObject) -> None:
+        between = False
+        while True:
+            await RisingEdge(dut.pix_clk)
+            if str(dut.rst.value) != "0":
+                between = False
+                continue
+            de = str(dut.out_de.value) == "1"
+            if de and between:
+                self.frames.append([])
+            if de and self.frames:
+                self.frames[-1].append(int(dut.out_data.value))
+            between = (between or str(dut.out_vsync.value) == "1") and not de
+
+    def check(self, expected: list[np.ndarray | None]) -> None:
+        """Assert what the monitor has got; None stands for a frame without a picture."""
+        assert len(self.frames) == len(expected), f"{len(self.frames)} frames, expected {len(expected)}; {where()}"
+        for index, (got, picture) in enumerate(zip(self.frames, expected, strict=True)):
+            wanted = [BLANK] * len(got) if picture is None else picture.ravel().tolist()
+            assert len(got) == len(wanted), f"frame {index}: {len(got)} pixels, expected {len(wanted)}; {where()}"
+            bad = [at for at, pair in enumerate(zip(got, wanted, strict=True)) if pair[0] != pair[1]]
+            assert not bad, (
+                f"frame {index}, pixel {bad[0]}: expected {wanted[bad[0]]:06X}, got {got[bad[0]]:06X}; "
+                f"{len(bad)} of {len(got)} differ; {where()}"
+            )
+        self.frames.clear()
+
+
 class Bench:
     """All around the core."""
 
@@ -63,17 +99,15 @@ class Bench:
         self.pix_clock = Clock(dut.pix_clk, round(pix_ns / 2, 3) * 2, unit="ns")
         self.pix_clock.start(start_high=False)
         self.cpu = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "s_axil"), dut.clk, dut.rst)
-        self.frames: list[list[int]] = []
-        """Pixels of each frame at the monitor."""
+        self.monitor = Monitor(dut)
         self._at = 0
-        cocotb.start_soon(self._watch_monitor())
 
     async def reset(self) -> None:
         """Reset; the ring of syncs holds blanking again DELAY cycles later."""
         self.dut.rst.value = 1
         await ClockCycles(self.dut.clk, 5)
         self.dut.rst.value = 0
-        self.frames.clear()
+        self.monitor.frames.clear()
         await ClockCycles(self.dut.clk, 10)
 
     async def write(self, offset: int, value: int) -> None:
@@ -167,33 +201,6 @@ class Bench:
         for signal in ("tdata", "tuser", "tlast"):
             handle = getattr(self.dut, f"{port}_{signal}")
             handle.value = LogicArray("X" * len(handle)) if four_state() else getrandbits(len(handle))
-
-    async def _watch_monitor(self) -> None:
-        dut, between = self.dut, False
-        while True:
-            await RisingEdge(dut.pix_clk)
-            if str(dut.rst.value) != "0":
-                between = False
-                continue
-            de = str(dut.out_de.value) == "1"
-            if de and between:
-                self.frames.append([])
-            if de and self.frames:
-                self.frames[-1].append(int(dut.out_data.value))
-            between = (between or str(dut.out_vsync.value) == "1") and not de
-
-    def check(self, expected: list[np.ndarray | None]) -> None:
-        """Assert what the monitor has got; None stands for a frame without a picture."""
-        assert len(self.frames) == len(expected), f"{len(self.frames)} frames, expected {len(expected)}; {where()}"
-        for index, (got, picture) in enumerate(zip(self.frames, expected, strict=True)):
-            wanted = [BLANK] * len(got) if picture is None else picture.ravel().tolist()
-            assert len(got) == len(wanted), f"frame {index}: {len(got)} pixels, expected {len(wanted)}; {where()}"
-            bad = [at for at, pair in enumerate(zip(got, wanted, strict=True)) if pair[0] != pair[1]]
-            assert not bad, (
-                f"frame {index}, pixel {bad[0]}: expected {wanted[bad[0]]:06X}, got {got[bad[0]]:06X}; "
-                f"{len(bad)} of {len(got)} differ; {where()}"
-            )
-        self.frames.clear()
 
 
 def place(x: int, y: int) -> int:

@@ -40,7 +40,7 @@ async def each_view(dut: HierarchyObject, pix: str, view: int) -> None:
         await bench.draw(drawing)
         frames = [Pictures.random(bench.rng, *size) for _ in range(2)]
         await bench.play(frames)
-        bench.check([display(view, one.rgb, one.gray, one.binary, drawing) for one in frames])
+        bench.monitor.check([display(view, one.rgb, one.gray, one.binary, drawing) for one in frames])
     assert await bench.read(regs.FRAMES_BLANK_OFFSET) == 0, f"a frame was blank; {where()}"
 
 
@@ -57,7 +57,7 @@ async def views_change_between_frames(dut: HierarchyObject) -> None:
         await bench.set_view(bench.rng.randrange(4))
         await ClockCycles(dut.clk, bench.rng.randint(1, 1200))
     seen = set()
-    for index, (got, one) in enumerate(zip(bench.frames, frames, strict=True)):
+    for index, (got, one) in enumerate(zip(bench.monitor.frames, frames, strict=True)):
         views = [display(view, one.rgb, one.gray, one.binary, drawing).ravel().tolist() for view in range(4)]
         # The tint comes with the frame, the view with the camera's frame: between them the CPU may have written.
         views.append(display(2, one.rgb, one.gray, one.binary, drawing).ravel().tolist())
@@ -75,7 +75,7 @@ async def text_goes_to_either_bank(dut: HierarchyObject) -> None:
         await bench.draw(drawing, bank)
         frames = [Pictures.random(bench.rng, MAX_WIDTH, MAX_HEIGHT)]
         await bench.play(frames)
-        bench.check([display(0, one.rgb, one.gray, one.binary, drawing) for one in frames])
+        bench.monitor.check([display(0, one.rgb, one.gray, one.binary, drawing) for one in frames])
 
 
 @cocotb.test()
@@ -87,7 +87,7 @@ async def frames_without_pixels_are_counted(dut: HierarchyObject) -> None:
     # The delay is shorter than this frame, so that a frame is not taken for the one before it.
     frames = [Pictures.random(bench.rng, MAX_WIDTH, MAX_HEIGHT) for _ in range(5)]
     await bench.play(frames, missing=(1, 3))
-    bench.check([None if index in (1, 3) else one.rgb for index, one in enumerate(frames)])
+    bench.monitor.check([None if index in (1, 3) else one.rgb for index, one in enumerate(frames)])
     assert await bench.read(regs.FRAMES_BLANK_OFFSET) == 2, where()
     assert await bench.read(regs.EVENTS_OFFSET) == regs.EVENTS_FRAME_BLANK_MASK, where()
     await bench.write(regs.EVENTS_OFFSET, regs.EVENTS_FRAME_BLANK_MASK)
@@ -122,7 +122,7 @@ async def the_pixel_clock_is_measured(dut: HierarchyObject, pix: str) -> None:
     assert await bench.read(regs.STATUS_OFFSET) == regs.STATUS_CLOCK_RUNS_MASK, where()
     frames = [Pictures.random(bench.rng, 12, 8) for _ in range(2)]
     await bench.play(frames)
-    bench.check([one.rgb for one in frames])
+    bench.monitor.check([one.rgb for one in frames])
 
 
 @cocotb.test()
@@ -200,4 +200,4 @@ async def reset_in_mid_frame_forgets_the_drawing(dut: HierarchyObject) -> None:
         await bench.reset()
         frames = [Pictures.random(bench.rng, 20, 10) for _ in range(2)]
         await bench.play(frames)
-        bench.check([display(0, one.rgb, one.gray, one.binary, Drawing(crosshair=True)) for one in frames])
+        bench.monitor.check([display(0, one.rgb, one.gray, one.binary, Drawing(crosshair=True)) for one in frames])
