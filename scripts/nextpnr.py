@@ -5,6 +5,7 @@ Debian's stable release has none, so the packages of sid are laid out in `build/
 and C library; nothing is installed. Sid moves on: what ran says its version.
 """
 
+import json
 import platform
 import re
 import shutil
@@ -22,7 +23,8 @@ CHIP = "usr/share/nextpnr/himbaechel/xilinx/chipdb-xc7z020.bin"
 LIBRARIES = "usr/lib/x86_64-linux-gnu"
 SOURCES = Path("/etc/apt")
 SID = "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] {archive} sid main\n"
-MHZ = re.compile(r"Max frequency for clock '([^']*)': ([0-9.]+) MHz")
+BUFFERS = ("IBUF", "BUFG", "BUFGCTRL")
+MHZ = re.compile(r"Max frequency for clock +'([^']*)': ([0-9.]+) MHz")
 
 
 class NotRoutedError(Exception):
@@ -67,9 +69,32 @@ class Nextpnr:
         if code != 0:
             errors = [line for line in log.splitlines() if line.startswith("ERROR")]
             raise NotRoutedError(errors[-1] if errors else f"nextpnr ended with {code}")
-        # Each clock stands there once after placement and once after routing, under the name of a net in the core, with
-        # a suffix where it begins at a buffer.
-        return {net.rsplit(".", 1)[-1].split("$")[0]: float(figure) for net, figure in MHZ.findall(log)}
+        # Each clock stands there after placement and after routing, with a suffix where it begins at a buffer.
+        ports = clock_ports(json.loads(netlist.read_text(encoding="utf-8")))
+        return {ports.get(net.split("$")[0], net): float(figure) for net, figure in MHZ.findall(log)}
+
+
+def clock_ports(design: dict) -> dict[str, str]:
+    """Which port each net is: of all names of what a port drives, through its buffers.
+
+    Args:
+        design: what yosys writes.
+    """
+    top = next(module for module in design["modules"].values() if module.get("attributes", {}).get("top"))
+    buffers = {
+        cell["connections"]["I"][0]: cell["connections"]["O"][0]
+        for cell in top["cells"].values()
+        if cell["type"] in BUFFERS
+    }
+    ports = {}
+    for name, port in top["ports"].items():
+        bit = port["bits"][0]
+        bits = {bit}
+        while bit in buffers:
+            bit = buffers[bit]
+            bits.add(bit)
+        ports |= {net: name for net, facts in top["netnames"].items() if bits & set(facts["bits"])}
+    return ports
 
 
 def _output(command: Sequence[str]) -> tuple[int, str]:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The design around a core, reading nextpnr's figures, and what is said where nextpnr is not to be had."""
 
-from pathlib import Path
+from pathlib import json
 
+import Path
 import pytest
 
 from scripts import nextpnr, pnr
@@ -13,12 +14,31 @@ from scripts.synth import budgets
 from tb.common.cores import core_names, load_core
 
 CLOCKS = ("clk", "pix_clk")
-LOG = """Info: Max frequency for clock 'core.clk': 90.10 MHz (FAIL at 150.00 MHz)
-Info: Max frequency for clock 'pix_clk$SRC_BUF': 300.00 MHz (PASS at 150.00 MHz)
+LOG = """Info: Max frequency for clock           'core.clk': 90.10 MHz (FAIL at 150.00 MHz)
+Info: Max frequency for clock 'core.fifo.rd_clk$SRC_BUF': 300.00 MHz (PASS at 150.00 MHz)
 Info: routed
 Info: Max frequency for clock 'core.clk': 151.25 MHz (PASS at 150.00 MHz)
-Info: Max frequency for clock 'pix_clk$SRC_BUF': 280.50 MHz (PASS at 150.00 MHz)
+Info: Max frequency for clock 'core.fifo.rd_clk$SRC_BUF': 280.50 MHz (PASS at 150.00 MHz)
 """
+
+
+def design(folder: Path) -> Path:
+    """A netlist of two clocks, one straight from its pin, one through buffers and known by a name deep inside."""
+    cells = {
+        "a": {"type": "IBUF", "connections": {"I": [3], "O": [4]}},
+        "b": {"type": "BUFG", "connections": {"I": [4], "O": [5]}},
+        "c": {"type": "FDRE", "connections": {"C": [5], "Q": [6]}},
+    }
+    nets = {"clk": [2], "core.clk": [2], "pix_clk": [3], "core.fifo.rd_clk": [5], "core.other": [6]}
+    top = {
+        "attributes": {"top": "1"},
+        "ports": {"clk": {"bits": [2]}, "pix_clk": {"bits": [3]}},
+        "cells": cells,
+        "netnames": {name: {"bits": bits} for name, bits in nets.items()},
+    }
+    path = folder / "design.json"
+    path.write_text(json.dumps({"modules": {"FDRE": {"ports": {"C": {"bits": [2]}}}, "harness": top}}))
+    return path
 
 
 def fake(folder: Path, script: str) -> Nextpnr:
@@ -57,7 +77,7 @@ def test_every_path_begins_and_ends_at_a_flip_flop_of_its_clock(name: str, of_pi
 
 def test_the_figure_is_that_after_routing(tmp_path: Path) -> None:
     tool = fake(tmp_path, f"cat <<'E'\n{LOG}E")
-    assert tool.route(tmp_path, tmp_path, 150, 1) == {"clk": 151.25, "pix_clk": 280.5}
+    assert tool.route(design(tmp_path), tmp_path, 150, 1) == {"clk": 151.25, "pix_clk": 280.5}
 
 
 def test_a_design_that_is_not_routed_has_no_figure(tmp_path: Path) -> None:
@@ -86,7 +106,7 @@ def test_the_slowest_seed_counts_and_each_must_tell_of_each_clock() -> None:
 def test_what_is_bad(core: str, log: str, fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     clocks = CLOCKS if core == "video_out" else CLOCKS[:1]
     monkeypatch.setattr(pnr, "ports_of", lambda _core, _parameters: [Port(name, "input", 1) for name in clocks])
-    monkeypatch.setattr(pnr, "netlist", lambda _core, _ports, folder: (folder, folder))
+    monkeypatch.setattr(pnr, "netlist", lambda _core, _ports, folder: (design(folder), folder))
     found = pnr.measure(core, fake(tmp_path, f"cat <<'E'\n{log}\nE"), [1, 2])[1]
     assert len(found) == bool(fault)
     assert fault in "".join(found)
