@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The design around a core, reading nextpnr's figures, and what is said where nextpnr is not to be had."""
 
-from pathlib import json
+import json
+from pathlib import Path
 
-import Path
 import pytest
 
 from scripts import nextpnr, pnr
