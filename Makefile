@@ -74,6 +74,10 @@ signoff: setup ## The table of what each core passed, from the results of the la
 synth: setup ## Area of one core or all, against constraints/budgets.toml (yosys, xc7): [CORE=name]
 	@$(PYTHON) -m scripts.synth $(if $(CORE),--core "$(CORE)")
 
+.PHONY: sweep
+sweep: setup ## What features and sizes cost: the builds of constraints/sweeps.toml [CORE=name]
+	@$(PYTHON) -m scripts.sweep $(if $(CORE),--core "$(CORE)")
+
 .PHONY: pnr
 pnr: setup ## How fast one core or all are, placed and routed by nextpnr for the Zynq-7020: [CORE=name]
 	@$(PYTHON) -m scripts.pnr $(if $(CORE),--core "$(CORE)")

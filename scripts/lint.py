@@ -4,6 +4,7 @@
 import os
 import sys
 import tomllib
+from collections.abc import Mapping
 
 from scripts.errors import ArgumentParser, run_main
 from scripts.lint_firmware import lint_firmware
@@ -18,10 +19,11 @@ VERIBLE_RULES = ROOT / "scripts" / "lint" / "verible.rules"
 YOSYS = "import sys; from pyosys import libyosys as ys; ys.run_pass(sys.argv[1], ys.Design())"
 
 
-def yosys_script(top: str, sources: list[str]) -> str:
+def yosys_script(top: str, sources: list[str], parameters: Mapping[str, int] | None = None) -> str:
     """Elaborates a core; a latch, a combinational loop or a net with two drivers is an error."""
     steps = [
         f"read_verilog {' '.join(include_flags())} {' '.join(sources)}",
+        *(f"chparam -set {name} {value} {top}" for name, value in (parameters or {}).items()),
         f"hierarchy -check -top {top}",
         "proc",
         "flatten",

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -73,8 +74,8 @@ def area_of(cells: dict[str, int]) -> Area:
     return Area(total(LOGIC), total(SHIFT), total(MEMORY), total(FLIP_FLOP), *blocks)
 
 
-def synthesise(top: str, sources: list[str]) -> Area:
-    """Map one design, sources from the project root.
+def synthesise(top: str, sources: list[str], parameters: Mapping[str, int] | None = None) -> Area:
+    """Map one design, sources from the project root, with these parameters instead of their defaults.
 
     Raises:
         ValueError: Yosys refuses it (latch, loop, two drivers), or `area_of` does.
@@ -83,7 +84,7 @@ def synthesise(top: str, sources: list[str]) -> Area:
         report = Path(folder) / "stat.json"
         quiet = f"tee -q -o {os.devnull}"
         steps = [f"{quiet} {MAP.format(top=top)}", f"{quiet} check -assert", f"tee -q -o {report} stat -json"]
-        script = "; ".join([yosys_script(top, sources), *steps])
+        script = "; ".join([yosys_script(top, sources, parameters), *steps])
         command = [sys.executable, "-c", YOSYS, script]
         result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
         if result.returncode != 0:
