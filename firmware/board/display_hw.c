@@ -71,9 +71,9 @@ static void set_char(uint32_t line, uint32_t column, char character)
 bool display_hw_is_there(void)
 {
     // Where nothing answers, a read would be a data abort: landing_core says what else is there.
-    const uint32_t features = register_read(ZYNQ_LANDING_CORE_BASE + LANDING_REG_FEATURES_OFFSET);
+    const uint32_t built_with = register_read(ZYNQ_LANDING_CORE_BASE + LANDING_REG_FEATURES_OFFSET);
 
-    return (features & LANDING_REG_FEATURES_DISPLAY_MASK) != 0U &&
+    return (built_with & LANDING_REG_FEATURES_DISPLAY_MASK) != 0U &&
            get(DISPLAY_REG_ID_OFFSET) == DISPLAY_REG_ID_VALUE_RESET &&
            (get(DISPLAY_REG_VERSION_OFFSET) & DISPLAY_REG_VERSION_MAJOR_MASK) >> DISPLAY_REG_VERSION_MAJOR_SHIFT ==
                DISPLAY_REG_VERSION_MAJOR_RESET;

@@ -256,6 +256,18 @@ static void release_landing_target(struct app *app, const struct landing_record 
     send_landing_target(app, record, pad, altitude, now_us);
 }
 
+// For the monitor.
+static void keep_seen(struct app *app, const struct camera *camera, const struct altitude *altitude,
+                      const struct pad_estimate *pad)
+{
+    app->seen_camera = *camera;
+    app->seen_altitude = *altitude;
+    app->has_seen_pad = pad != NULL;
+    if (pad != NULL) {
+        app->seen_pad = *pad;
+    }
+}
+
 int app_on_record(struct app *app, const struct landing_record *record, size_t size_bytes, uint64_t now_us)
 {
     struct pad_estimate pad;
@@ -305,23 +317,17 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         flight_on_new_track(&app->flight);
     }
     // A prediction is good for a target, not for steering: it neither counts as a frame with the pad nor as one without.
+    const bool flown_by = found && !app->staged;
+
     if (track != TRACK_BRIDGED) {
-        flight_on_frame(&app->flight, &app->attitude, found && !app->staged ? &pad : NULL, &altitude, exposed_us,
-                        now_us);
+        flight_on_frame(&app->flight, &app->attitude, flown_by ? &pad : NULL, &altitude, exposed_us, now_us);
     }
-    if (found) {
-        app->health[APP_HEALTH_PADS] += seen ? 1U : 0U;
-        if (!app->staged) {
-            release_landing_target(app, record, &pad, &altitude, now_us);
-        }
+    app->health[APP_HEALTH_PADS] += found && seen ? 1U : 0U;
+    if (flown_by) {
+        release_landing_target(app, record, &pad, &altitude, now_us);
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
-    app->seen_camera = camera;
-    app->seen_altitude = altitude;
-    app->has_seen_pad = found;
-    if (found) {
-        app->seen_pad = pad;
-    }
+    keep_seen(app, &camera, &altitude, found ? &pad : NULL);
     return 0;
 }
 

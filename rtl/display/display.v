@@ -3,7 +3,7 @@
 // the camera's own timing. Registers (docs/display_registers.md) say what is drawn, where the picture comes from and how the
 // pixel clock fares. Without it landing_core works as well.
 //
-// Latency     DELAY cycles of pix_clk from vid_* to out_*.
+// Latency     DELAY cycles of pix_clk from vid_* to out_*, 13200 by default.
 // Throughput  one pixel a clk, no stalls: view_* are watched, never held.
 // Border      none. Rounding: that of overlay.
 // Overflow    that of video_out: a frame that is not in time is BLANK from there on, flagged and counted.
