@@ -17,9 +17,9 @@ from cocotb.triggers import RisingEdge
 from cocotb.utils import get_sim_time
 
 from golden.frame_source import Places, frame_of, shown
-from tb.common.axi_read_memory import AxiReadMemory, ReadBurst
 from tb.common.run import parameter, where
 from tb.common.stream import PulseCounter
+from tb.frame_source.axi_read_memory import AxiReadMemory, ReadBurst
 
 CLK_NS = 10.0
 PLACES = Places(

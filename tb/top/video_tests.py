@@ -16,9 +16,9 @@ from golden.display import VIEWS, display
 from golden.generated import display_regs, landing_regs
 from golden.overlay import Drawing
 from tb.common.axi_memory import AxiMemory
-from tb.common.axi_read_memory import AxiReadMemory
 from tb.common.run import parameter, where
 from tb.display.tb_display import Monitor, place
+from tb.frame_source.axi_read_memory import AxiReadMemory
 from tb.landing_core.tb_landing_core import lines_of, picture
 from tb.video_in.tb_video_in import Blanking, Raw
 
