@@ -33,7 +33,9 @@ def run(sim: str, config: int) -> None:
     assert result.passed, f"{result.summary}\nlog: {result.log}"
 
 
-@pytest.mark.parametrize("sim", SIMULATORS)
+@pytest.mark.parametrize(
+    "sim", [pytest.param(sim, marks=pytest.mark.full if sim == "icarus" else ()) for sim in SIMULATORS]
+)
 def test_small_frames(sim: str) -> None:
     run(sim, 0)
 
