@@ -39,7 +39,8 @@ module landing_regs_bus (
     input wire lidar_status_too_long,
     input wire lidar_status_too_short,
     input wire [31:0] time_lo_us,
-    input wire [31:0] time_hi_us
+    input wire [31:0] time_hi_us,
+    input wire features_display
 );
 
   wire s_axil_awready;
@@ -93,7 +94,7 @@ module landing_regs_bus (
   localparam [9:0] IRQ_STATUS = 10'h0A;
   localparam [9:0] IRQ_ENABLE = 10'h0B;
   localparam [9:0] SCRATCH = 10'h17;
-  localparam [9:0] LAST = SCRATCH;
+  localparam [9:0] LAST = 10'h18;
 
   // What the master has asked for, in order of asking; at most one of each waits.
   reg known = 1'b0, was_rst;

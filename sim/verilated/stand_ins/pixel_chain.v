@@ -28,9 +28,19 @@ module pixel_chain #(
     output wire       m_axis_tuser,
     output wire       m_axis_tlast,
 
+    // No camera, no gray.
+    output wire [7:0] gray_beat_tdata,
+    output wire       gray_beat_tvalid,
+    output wire       gray_beat_tuser,
+    output wire       gray_beat_tlast,
+
     output reg thresholds_missing
 );
 
+    assign gray_beat_tdata = 8'd0;
+    assign gray_beat_tvalid = 1'b0;
+    assign gray_beat_tuser = 1'b0;
+    assign gray_beat_tlast = 1'b0;
     assign m_axis_tdata = s_axis_tdata[0];
     assign m_axis_tvalid = s_axis_tvalid;
     assign s_axis_tready = m_axis_tready;
