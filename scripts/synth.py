@@ -27,7 +27,7 @@ MAP = "synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}"
 
 LOGIC = {"INV": 1, **{f"LUT{inputs}": 1 for inputs in range(1, 7)}}
 SHIFT = {"SRL16E": 1, "SRLC32E": 1}
-MEMORY = {"RAM32M": 4, "RAM64M": 4, "RAM32X1D": 2, "RAM64X1D": 2, "RAM128X1D": 4, "RAM256X1S": 4}
+MEMORY = {"RAM32M": 4, "RAM64M": 4, "RAM32X1D": 2, "RAM64X1D": 2, "RAM128X1D": 4, "RAM128X1S": 2, "RAM256X1S": 4}
 FLIP_FLOP = {"FDRE": 1, "FDSE": 1, "FDCE": 1, "FDPE": 1}
 WITHOUT_AREA = {"CARRY4", "MUXF7", "MUXF8", "$scopeinfo"}
 """LUTs, or flip-flops, that a primitive takes."""
