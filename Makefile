@@ -139,7 +139,7 @@ landing: setup ## Regenerate everything that comes from firmware/landing.toml: C
 	@$(PYTHON) -m scripts.landing
 
 .PHONY: regmap
-regmap: setup ## Regenerate everything that comes from rtl/landing_regs/landing_core.rdl
+regmap: setup ## Regenerate everything that comes from the .rdl files of registers and record
 	@$(PYTHON) -m scripts.regmap
 
 .PHONY: firmware

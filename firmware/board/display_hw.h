@@ -19,7 +19,7 @@ bool display_hw_is_there(void);
 
 void display_hw_start(void);
 
-// Draws; what has not changed is not written.
+// Draws; of the text only characters that have changed are written.
 void display_hw_show(const struct picture *picture);
 
 // Buttons, switches and LEDs: to be called a few times a second or more often. Button 0 takes the next view. Switches
