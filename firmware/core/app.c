@@ -256,6 +256,15 @@ static void release_landing_target(struct app *app, const struct landing_record 
     send_landing_target(app, record, pad, altitude, now_us);
 }
 
+// For the next hint.
+static void keep_view(struct app *app, const struct pad_estimate *pad, uint64_t start_us)
+{
+    app->has_last_view = true;
+    app->last_view = pad->view;
+    app->last_doubt = pad->search_doubt;
+    app->last_view_us = start_us;
+}
+
 // For the monitor.
 static void keep_seen(struct app *app, const struct camera *camera, const struct altitude *altitude,
                       const struct pad_estimate *pad)
@@ -265,6 +274,15 @@ static void keep_seen(struct app *app, const struct camera *camera, const struct
     app->has_seen_pad = pad != NULL;
     if (pad != NULL) {
         app->seen_pad = *pad;
+    }
+}
+
+static void count_staged(struct app *app)
+{
+    if (!app->has_other_source && app->staged_frames != 0U) {
+        app->staged_frames--;
+        // What was followed is not there any more.
+        tracker_init(&app->tracker);
     }
 }
 
@@ -303,10 +321,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     const bool found = track != TRACK_NONE;
 
     if (track == TRACK_MEASURED) {
-        app->has_last_view = true;
-        app->last_view = pad.view;
-        app->last_doubt = pad.search_doubt;
-        app->last_view_us = record->header.start_time_us;
+        keep_view(app, &pad, record->header.start_time_us);
     }
     if ((app->detect_options & DETECT_FACTORS) != 0U) {
         factor_search_update(&app->factor_search, seen, factor);
@@ -317,7 +332,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         flight_on_new_track(&app->flight);
     }
     // A prediction is good for a target, not for steering: it neither counts as a frame with the pad nor as one without.
-    const bool flown_by = found && !app->staged;
+    const bool flown_by = found && app->staged_frames == 0U;
 
     if (track != TRACK_BRIDGED) {
         flight_on_frame(&app->flight, &app->attitude, flown_by ? &pad : NULL, &altitude, exposed_us, now_us);
@@ -328,12 +343,16 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     }
     send_pad_array(app, record, found ? &pad : NULL, track == TRACK_BRIDGED, &altitude, now_us);
     keep_seen(app, &camera, &altitude, found ? &pad : NULL);
+    count_staged(app);
     return 0;
 }
 
 void app_on_source(struct app *app, bool is_camera)
 {
-    app->staged = !is_camera;
+    app->has_other_source = !is_camera;
+    if (app->has_other_source) {
+        app->staged_frames = APP_STAGED_FRAMES;
+    }
 }
 
 void app_picture(const struct app *app, struct picture *picture)
@@ -469,7 +488,7 @@ void app_tick(struct app *app, uint64_t now_us, const struct lidar_reading *lida
         return;
     }
     if (due(&app->next_heartbeat_us, now_us, HEARTBEAT_PERIOD_US)) {
-        const char *why_not = app->fault == NULL && app->staged ? "Touchdown: pixels are not the camera's" : app->fault;
+        const char *why_not = app->fault == NULL && app->has_other_source ? "Touchdown: pixels are not the camera's" : app->fault;
         for (int link = 0; link < APP_LINKS; link++) {
             links_send(&app->links, (enum app_link)link, bytes,
                        mavlink_out_heartbeat(&app->links.out[link], why_not == NULL, bytes));

@@ -78,6 +78,9 @@ enum app_health_field {
 
 #define APP_LIDAR_AGE_MAX_MS 9999U
 
+// One being streamed, one being written, two that wait to be read.
+#define APP_STAGED_FRAMES 4U
+
 // What only the board knows of itself.
 struct app_vitals {
     uint32_t stack_used_bytes;
@@ -128,7 +131,8 @@ struct app {
     struct pad_estimate seen_pad;
     struct altitude seen_altitude;
     bool has_seen_pad; // found, or bridged
-    bool staged;       // the pixels are not the camera's
+    bool has_other_source;  // than the camera
+    uint32_t staged_frames; // records that still count as the other source's
 };
 
 // `fault` is NULL, or one sentence of at most 50 characters that says why
@@ -164,7 +168,8 @@ void app_on_complaints(struct app *app, const struct app_complaints *complaints,
 uint32_t app_min_area_px(const struct app *app);
 
 // Whether records are of the camera, as they are at first, or of a built-in source: then the pad is told of and shown, but
-// no target goes out, nothing is steered by it, and HEARTBEAT is CRITICAL with the reason.
+// no target goes out, nothing is steered by it, and HEARTBEAT is CRITICAL with the reason. The same goes for the first
+// APP_STAGED_FRAMES records after the change back: they may have been on their way.
 void app_on_source(struct app *app, bool is_camera);
 
 // What a monitor should show of the newest record, if there was one.

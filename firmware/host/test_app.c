@@ -298,9 +298,15 @@ static void test_other_pixels(void)
     app_tick(&app, 1000U, NULL);
     CHECK(strcmp(last_text, "Touchdown: pixels are not the camera's") == 0);
 
-    test_case("and the camera's again is");
+    test_case("and the camera's again is, from when no record of the other can come any more");
     last_text[0] = '\0';
+    memset(messages, 0, sizeof messages);
     app_on_source(&app, true);
+    for (uint32_t i = 0; i < APP_STAGED_FRAMES; i++) {
+        give(0U);
+    }
+    CHECK(messages[APP_LINK_AUTOPILOT] == 0);
+    CHECK(app.flight.known.pad_us == 0U);
     give(0U);
     CHECK(messages[APP_LINK_AUTOPILOT] > 0);
     app_tick(&app, 2001000U, NULL);

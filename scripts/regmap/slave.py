@@ -118,17 +118,16 @@ BUS = f"""
 """
 
 
-def export(register_map: RegisterMap) -> str:
-    """Text of the slave."""
+def export(register_map: RegisterMap, page: str) -> str:
+    """Text of the slave; `page` describes its registers."""
     registers = register_map.registers
     fields = [field for register in registers for field in register.fields]
     has_interrupt = any(field.enabled_by for field in fields)
-    page = "registers" if register_map.ring else "display_registers"
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
         f"// Generated from {register_map.source} by python -m scripts.regmap. Do not edit.",
         "//",
-        f"// {register_map.module}: {register_map.desc} docs/{page}.md is the reference.",
+        f"// {register_map.module}: {register_map.desc} {page} is the reference.",
         "//",
         CONTRACT,
         *([INTERRUPT] if has_interrupt else []),
