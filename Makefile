@@ -91,7 +91,7 @@ vectors: setup ## Golden input and output of one core from recorded frames: CORE
 	@$(PYTHON) -m scripts.vectors --core "$(CORE)" $(if $(FRAMES),--frames "$(FRAMES)")
 
 .PHONY: lint
-lint: setup ## verilator, Icarus, yosys and verible on the RTL; clang, clang-tidy, cppcheck on C; ruff on Python
+lint: setup ## verilator, Icarus, yosys and verible on the RTL; clang, clang-tidy, cppcheck on C; ruff on Python; tclint on Tcl
 	@$(PYTHON) -m scripts.lint
 
 .PHONY: formal
@@ -141,6 +141,10 @@ landing: setup ## Regenerate everything that comes from firmware/landing.toml: C
 .PHONY: regmap
 regmap: setup ## Regenerate everything that comes from the .rdl files of registers and record
 	@$(PYTHON) -m scripts.regmap
+
+.PHONY: fusesoc
+fusesoc: setup ## Regenerate the .core files of FuseSoC from rtl/*/core.toml
+	@$(PYTHON) -m scripts.fusesoc
 
 .PHONY: firmware
 firmware: setup ## Build build/firmware/touchdown.elf: [CAMERA=file] [AUTOPILOT_BAUD=57600] [GROUND_BAUD=115200]
