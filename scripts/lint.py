@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the RTL, of the firmware's C and of the Python code."""
+"""Checks of the RTL, of the firmware's C, of the Python code and of Vivado's Tcl."""
 
 import os
 import sys
@@ -13,6 +13,7 @@ from scripts.signoff import leave
 
 WAIVERS = ROOT / "scripts" / "lint" / "verilator.vlt"
 VERIBLE_RULES = ROOT / "scripts" / "lint" / "verible.rules"
+TCL, TCL_RULES = ("scripts/**/*.tcl", "constraints/*.xdc"), ROOT / "scripts" / "lint" / "tclint.toml"
 
 
 # pyosys has no command of its own; a process of its own keeps an error of one core from the next.
@@ -75,11 +76,17 @@ def lint_python() -> bool:
     return run("ruff format", [ruff, "format", "--check", "--quiet", "."]) and clean
 
 
+def lint_tcl() -> bool:
+    """Style of the scripts for Vivado and the constraints."""
+    files = sorted(str(path.relative_to(ROOT)) for place in TCL for path in ROOT.glob(place))
+    return run("tclint", [need("tclint"), "-c", str(TCL_RULES), *files])
+
+
 def main() -> int:
     """Entry point of `make lint`."""
     parser = ArgumentParser(prog="make lint", description=__doc__)
     parser.parse_args()
-    results = [lint_verilog(), lint_firmware(), lint_python()]
+    results = [lint_verilog(), lint_firmware(), lint_python(), lint_tcl()]
     if not all(results):
         print("touchdown: lint found what is printed above; mend it or waive it with a reason.", file=sys.stderr)
         return 1

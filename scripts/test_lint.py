@@ -23,8 +23,17 @@ def test_lint_is_clean() -> None:
     assert run.returncode == 0, run.stdout + run.stderr
     for core in lint.cores():
         assert f"ok   yosys {core}\n" in run.stdout
-    for tool in (*lint_firmware.TOOLS.values(), "c rules", "ruff check"):
+    for tool in (*lint_firmware.TOOLS.values(), "c rules", "ruff check", "tclint"):
         assert f"ok   {tool}\n" in run.stdout
+
+
+def test_tclint_refuses(tmp_path: Path) -> None:
+    source = tmp_path / "spoilt.tcl"
+    source.write_text("expr $argc+1\n")
+    command = [lint.need("tclint"), "-c", lint.TCL_RULES, source]
+    run = subprocess.run(command, cwd=lint.ROOT, capture_output=True, text=True, check=False)
+    assert run.returncode != 0
+    assert "spoilt.tcl" in run.stdout
 
 
 @pytest.mark.parametrize("fault", FAULTS)

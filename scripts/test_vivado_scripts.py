@@ -3,21 +3,18 @@
 
 import re
 import shutil
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from scripts.board import INCLUDES, TABLE, VENDOR, load_board, vendor_files
-from scripts.lint_run import need
 from scripts.rtl_facts import Facts, facts_of
 from scripts.vivado import FALLBACK, SCRIPTS, VERSION, listed, quoted, register_bases, write_inputs
 from scripts.vivado_standin import Outcome, run_standin, write_facts
 from tb.common.cores import ROOT
 
 CONSTRAINTS = ("arty_z7.xdc", "video_in.xdc")
-TCLINT = ROOT / "scripts/lint/tclint.toml"
 
 
 @dataclass(frozen=True)
@@ -166,12 +163,6 @@ def ground(tmp_path: Path, facts: Facts) -> Ground:
     for name in CONSTRAINTS:
         shutil.copy(ROOT / "constraints" / name, tmp_path / "constraints")
     return Ground(tmp_path, facts)
-
-
-def test_tclint_is_content() -> None:
-    files = [*sorted(ROOT.glob("scripts/**/*.tcl")), *sorted(ROOT.glob("constraints/*.xdc"))]
-    run = subprocess.run([need("tclint"), "-c", TCLINT, *files], capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
 
 
 def test_the_build_runs_through(ground: Ground) -> None:
