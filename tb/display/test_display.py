@@ -171,6 +171,8 @@ async def registers_are_those_of_the_source(dut: HierarchyObject) -> None:
     bench.pix_clock.stop()
     state = golden.reset_state(regs.REGISTERS)
     accesses = [(register.offset, 1 << bit, 4) for register in regs.REGISTERS for bit in range(32)]
+    accesses += [(register.offset, 0, 4) for register in regs.REGISTERS]
+    accesses += [(register.offset, 0xFFFFFFFF, length) for length in (1, 2, 3) for register in regs.REGISTERS]
     addresses = [*state, 0x54, 0x7C, 0x800, 0xFFC]
     accesses += [(bench.rng.choice(addresses), bench.rng.getrandbits(32), bench.rng.randint(1, 4)) for _ in range(200)]
     for register in regs.REGISTERS:
@@ -184,6 +186,24 @@ async def registers_are_those_of_the_source(dut: HierarchyObject) -> None:
         word, expected = golden.read(regs.REGISTERS, state, address, {})
         got = (int.from_bytes(answer.data, "little"), answer.resp)
         assert got == (word, AxiResp(expected)), f"read of {address:#x}: {got}, expected {word:#x}; {where()}"
+
+
+@cocotb.test()
+async def a_write_does_not_wait_for_ready(dut: HierarchyObject) -> None:
+    """It counts while its response waits, and the next one only when that has been taken."""
+    bench = Bench(dut)
+    check_responses(dut)
+    await bench.reset()
+    responses = bench.cpu.write_if.b_channel
+    for first, second in ((5, 10), (9, 6)):
+        responses.pause = True
+        writes = [cocotb.start_soon(bench.write(regs.LEDS_OFFSET, value)) for value in (first, second)]
+        await ClockCycles(dut.clk, 40)
+        assert int(dut.leds.value) == first, f"leds {int(dut.leds.value)}, expected {first}; {where()}"
+        responses.pause = False
+        for write in writes:
+            await write
+        assert int(dut.leds.value) == second, f"leds {int(dut.leds.value)}, expected {second}; {where()}"
 
 
 @cocotb.test()

@@ -15,7 +15,7 @@ from cocotbext.axi import AxiResp
 
 from golden.generated import landing_regs as regs
 from tb.common.figures import page_figures
-from tb.common.run import where
+from tb.common.run import parameter, where
 from tb.common.stream import CLOCK_NS, split_frames
 from tb.landing_core.tb_landing_core import (
     BLANKING,
@@ -63,6 +63,8 @@ async def registers_tell_what_was_built(dut: HierarchyObject) -> None:
     assert await bench.read(regs.ID_OFFSET) == regs.REGISTERS[0].fields[0].reset
     info = await bench.read(regs.RING_INFO_OFFSET)
     assert info == MAX_OBJECTS << regs.RING_INFO_MAX_OBJECTS_SHIFT | regs.RING_BUFFERS
+    features = parameter("HAS_DISPLAY", 0) << regs.FEATURES_DISPLAY_SHIFT
+    assert await bench.read(regs.FEATURES_OFFSET) == features, f"FEATURES is not {features}; {where()}"
     times_ns = [get_sim_time("ns")]
     first = await bench.read(regs.TIME_LO_OFFSET)
     times_ns.append(get_sim_time("ns"))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """video_out: whole frames, missing, cut off and late ones, overflows, a stopped clock, resets, either polarity."""
 
+from dataclasses import replace
+
 import cocotb
 from cocotb.handle import HierarchyObject
 from cocotb.triggers import RisingEdge
@@ -43,7 +45,8 @@ async def the_other_polarity(dut: HierarchyObject, shape: str) -> None:
     """It is learnt from the first line; the frame of that may be blank."""
     bench = Bench(dut)
     await bench.reset()
-    raw, frames = camera(bench.rng, [(7, 4)] * 4, blanking(bench, shape), 1 - ACTIVE)
+    # A blank frame is given up until the camera's next vsync, so that must not come before the frame's turn.
+    raw, frames = camera(bench.rng, [(7, 4)] * 4, replace(blanking(bench, shape), front=DELAY, rng=None), 1 - ACTIVE)
     await bench.play(raw, frames, [Sent()] * len(frames))
     first = pixels_of(frames[0])
     seen = [sample.data for sample in bench.seen if sample.de][: len(first)]
