@@ -105,6 +105,16 @@ class Bench:
         for _ in range(10):
             await RisingEdge(self.dut.clk)
 
+    async def pour(self, count: int, first: bool = False) -> None:
+        """Send pixels without a break, one a cycle of clk, of which the first begins a frame or none does."""
+        for index in range(count):
+            self.dut.s_axis_tvalid.value = 1
+            self.dut.s_axis_tdata.value = self.rng.getrandbits(24)
+            self.dut.s_axis_tuser.value = int(first and index == 0)
+            self.dut.s_axis_tlast.value = 0
+            await RisingEdge(self.dut.clk)
+        self._idle()
+
     async def stop_clock(self, cycles: int) -> None:
         """Let pix_clk stand still for so many cycles of clk; the monitor stands still with it."""
         self._pix_clock.stop()

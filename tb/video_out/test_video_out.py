@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import cocotb
 from cocotb.handle import HierarchyObject
-from cocotb.triggers import RisingEdge
+from cocotb.triggers import ClockCycles, RisingEdge
 
 from tb.common.run import where
 from tb.video_out.tb_video_out import ACTIVE, CLK_NS, DELAY, FIFO_DEPTH, Bench, Blanking, Sent, camera, pixels_of
@@ -164,3 +164,21 @@ async def reset_forgets_what_waits(dut: HierarchyObject, stands: bool) -> None:
         running.cancel()
         bench.stop()
         await (bench.reset_while_the_clock_stands() if stands else bench.reset())
+
+
+@cocotb.test(skip=not IS_SMALL)
+async def the_rest_of_a_frame_is_nothing_after_a_reset(dut: HierarchyObject) -> None:
+    """Pixels that come without their frame's first one take no place from the next frame."""
+    bench = Bench(dut)
+    await bench.reset()
+    await bench.pour(1, first=True)
+    await bench.reset()
+    raw, frames = camera(bench.rng, [(9, 4)], Blanking(4, DELAY, 20, 4 * FIFO_DEPTH))
+    # As many as would all but fill the FIFO, from which one goes a cycle of pix_clk: up to just before the frame.
+    pix_per_clk = CLK_NS / PIX_NS["720p"]
+    count = int((FIFO_DEPTH - 4) / (1 - pix_per_clk))
+    playing = cocotb.start_soon(bench.play(raw, frames, [Sent(lag=0, fast=True)]))
+    await ClockCycles(dut.clk, int(raw.de.index(1) / pix_per_clk) - count - 4)
+    await bench.pour(count)
+    await playing
+    bench.check(raw, [pixels_of(lines) for lines in frames])
