@@ -182,3 +182,20 @@ async def the_rest_of_a_frame_is_nothing_after_a_reset(dut: HierarchyObject) -> 
     await bench.pour(count)
     await playing
     bench.check(raw, [pixels_of(lines) for lines in frames])
+
+
+@cocotb.test(skip=not IS_SMALL)
+async def a_reset_within_a_frame_is_no_blank_frame(dut: HierarchyObject) -> None:
+    """What is left of that frame goes by unsaid; the next one is whole."""
+    bench = Bench(dut)
+    await bench.reset()
+    raw, frames = camera(bench.rng, [(9, 20), (9, 4)], Blanking(4, DELAY, 20, 60))
+    playing = cocotb.start_soon(bench.play(raw, frames, [Sent(), Sent()]))
+    await ClockCycles(dut.pix_clk, raw.de.index(1) + 40)
+    await bench.reset()
+    await playing
+    expected = pixels_of(frames[1])
+    seen = [sample.data for sample in bench.seen if sample.de]
+    assert len(seen) > len(expected), f"nothing is left of the frame with the reset; {where()}"
+    assert seen[-len(expected) :] == expected, f"the frame after the reset is not whole; {where()}"
+    assert bench.blanks.count == 0, f"frame_blank pulsed {bench.blanks.count} times; {where()}"
