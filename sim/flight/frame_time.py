@@ -15,6 +15,7 @@ from golden.generated.landing_regs import RECORD_DTYPE
 from scripts.errors import ArgumentParser, UserError, run_main
 from sim.accuracy.paths import golden
 from sim.accuracy.photos import photo_units
+from sim.accuracy.run import build
 from sim.accuracy.shots import develop
 from sim.flight.board import ZynqBoard
 
@@ -54,6 +55,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if not options.folder:
         raise UserError("no photographs are named; give FRAMES=folder.")
+    build("golden")
     searched: list[int] = []
     tracked: list[int] = []
     missed: list[int] = []

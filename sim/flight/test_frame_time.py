@@ -12,6 +12,7 @@ from firmware.library import AUTOPILOT, GROUND
 from golden.ccl import ccl
 from golden.generated.landing_regs import OBJECT_DTYPE, RECORD_MAX_OBJECTS
 from scripts.errors import UserError
+from sim.flight import frame_time
 from sim.flight.board import SIZE, ZynqBoard
 from sim.flight.frame_time import SPANS, main
 from sim.flight.sight import objects_of
@@ -135,9 +136,15 @@ def test_photographs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert f"at most {counts[2]} of 1 photographs" in tracked
 
 
-def test_photographs_without_a_pad(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_photographs_without_a_pad(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And the library that looks at them is built first."""
+    built: list[str] = []
+    monkeypatch.setattr(frame_time, "build", built.append)
     cv2.imwrite(str(tmp_path / "none.png"), np.full((SIZE[1], SIZE[0], 3), 128, np.uint8))
     assert main([str(tmp_path), "--altitude", "1.0"]) == 0
+    assert built == ["golden"]
     row, total = capsys.readouterr().out.splitlines()[1:]
     assert "no pad in" in row
     assert total.startswith("without a pad: ")
