@@ -47,8 +47,8 @@ def of_tests() -> list[Path]:
 
 
 def purpose(core: Core) -> str:
-    """The first sentence of the header of a core's top module."""
-    comment = re.match(r"// SPDX.*\n((?://.+\n)+)", core.sources[-1].read_text("utf-8"))
+    """The first sentence of the header of a core's top module, behind what says that it is generated."""
+    comment = re.match(r"// SPDX.*\n(?:// Generated .*\n//\n)?((?://.+\n)+)", core.sources[-1].read_text("utf-8"))
     text = re.sub(r"\s*\n// ?", " ", comment[1].removeprefix("// ")) if comment else ""
     sentence = re.split(r"[.:] ", text.removeprefix(f"{core.name}: "))[0].strip().rstrip(".:")
     return sentence[:1].upper() + sentence[1:]

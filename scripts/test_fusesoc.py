@@ -68,6 +68,7 @@ def test_every_core_says_what_it_is_for() -> None:
     for name, content in contents().items():
         assert content["name"].endswith(f":{VERSION}")
         assert 10 < len(content["description"]) < 120, name
+        assert not content["description"].startswith("Generated"), name
     assert {f"rtl/{name}/{name}.core" for name in core_names()} < set(contents())
 
 

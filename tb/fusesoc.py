@@ -23,7 +23,7 @@ def told() -> str:
             "sim": "icarus" if cocotb.SIM_NAME.startswith("Icarus") else "verilator",
             "config": 0,
             "parameters": parameters,
-            "seed": cocotb.RANDOM_SEED if hasattr(cocotb, "RANDOM_SEED") else 0,
+            "seed": cocotb.RANDOM_SEED,
         }
     )
 
