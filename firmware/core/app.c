@@ -241,6 +241,7 @@ static struct detect_hint hint_of(const struct app *app, const struct landing_re
     if ((app->detect_options & DETECT_TRACK) != 0U && app->has_last_view &&
         header->start_time_us - app->last_view_us <= LAST_VIEW_US) {
         hint.last = &app->last_view;
+        hint.last_fused = app->last_fused;
         hint.last_doubt = app->last_doubt;
     }
     return hint;
@@ -261,6 +262,7 @@ static void keep_view(struct app *app, const struct pad_estimate *pad, uint64_t 
 {
     app->has_last_view = true;
     app->last_view = pad->view;
+    app->last_fused = pad->fused;
     app->last_doubt = pad->search_doubt;
     app->last_view_us = start_us;
 }
@@ -312,7 +314,8 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
     const uint64_t exposed_us = exposed_us_of(&record->header);
     const uint32_t factor = factor_of(app, &record->header);
     const struct detect_hint hint = hint_of(app, &record->header, &lidar, factor, now_us);
-    const bool seen = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad) == 0;
+    const int detected = detect_pad(record, &camera, &hint, app->detect_options, &app->scratch, &pad);
+    const bool seen = detected == 0;
     const enum track_result track =
         (app->detect_options & DETECT_TRACK) != 0U
             ? tracker_update(&app->tracker, &camera, record->header.start_time_us, seen, &pad)
@@ -324,7 +327,7 @@ int app_on_record(struct app *app, const struct landing_record *record, size_t s
         keep_view(app, &pad, record->header.start_time_us);
     }
     if ((app->detect_options & DETECT_FACTORS) != 0U) {
-        factor_search_update(&app->factor_search, seen, factor);
+        factor_search_update(&app->factor_search, seen, detected != DETECT_E_GOES_ON, factor);
     }
     const struct altitude altitude = fusion_altitude(&lidar, found ? &pad : NULL);
 

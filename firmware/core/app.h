@@ -119,6 +119,7 @@ struct app {
     uint64_t last_view_us;     // start of its frame
     double last_doubt; // that it left when it was searched for
     bool has_last_view;
+    bool last_fused; // its inner shapes were seen as one
     bool camera_lost;
     bool lidar_worked; // since power-up
     uint32_t min_area_px;

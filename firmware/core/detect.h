@@ -10,7 +10,8 @@
 #include "landing_regs.h"
 #include "pad_fit.h"
 
-enum { DETECT_E_NO_PAD = -1 };
+// GOES_ON: none so far, but the frame's time was over before all places were looked at.
+enum { DETECT_E_NO_PAD = -1, DETECT_E_GOES_ON = -2 };
 
 // What can be left out, to see what it is worth.
 #define DETECT_RING_PIECES 1U // a ring that is broken or cut by the border still counts
@@ -22,15 +23,51 @@ enum { DETECT_E_NO_PAD = -1 };
 #define DETECT_FACTORS 64U    // try other threshold factors while no pad is seen
 #define DETECT_ALL 127U
 
-// A shape of the record and where it touches the frame.
+// A shape of the record, and whether the frame's border touches it.
 struct candidate {
     struct shape shape;
     bool clipped;
+    enum { SIGHT_UNKNOWN, SIGHT_KNOWN, SIGHT_NONE } sight;
+    double direction[3]; // of its centroid, once it was asked for and if the camera can see there
+};
+
+// Where the pad may be.
+struct hypothesis {
+    struct pad_view view; // near enough to be fitted
+    bool fused;           // the inner shapes have run together
+    double error;         // of its list, the least is tried first
+    bool fitted;          // all shapes are in reach; else the view is a guess still
+    int steps;            // that the fit has taken
+    bool mirrored;        // it came from its mirror image, which had its turn
+};
+
+#define HYPOTHESES 6
+
+struct hypotheses {
+    int count;
+    struct hypothesis list[HYPOTHESES]; // the best of all, by rising error
+};
+
+// How far a search has come that takes more than one frame: one list of hypotheses after the other.
+struct search_round {
+    enum { SEARCH_PAIRS, SEARCH_SMALL_RINGS, SEARCH_RINGS, SEARCH_LISTS } kind;
+    bool listed; // there is a list
+    struct hypotheses list;
+    int list_frames; // since it was made
+    int from;        // with which candidate it begins,
+    int next;        // and the one after it,
+    int of;          // of how many
+    int lists;       // of this kind so far
+    int turn;        // hypotheses of it that had theirs
+    bool found;      // something that may be a pad
+    bool fitting;    // one that had no time to be fitted to its end
+    struct hypothesis fit;
+    int fit_frames; // for which it has been going on
 };
 
 struct detect_scratch {
-    int skip; // hypotheses that had their turn in the frame before, which had no time for all
-    int slopes_taken; // what the fits of a frame cost: see pad_fit.h
+    struct search_round round;
+    int work; // that the last frame took: see work.h
     int count;
     struct candidate candidates[LANDING_RECORD_MAX_OBJECTS];
 };
@@ -48,6 +85,7 @@ struct pad_estimate {
     double doubt;       // misfit, and what is missing or does not belong
     double ring_share;  // of the ring's visible print that was seen
     unsigned kinds;     // PAD_* that were seen
+    bool fused;         // the inner shapes as one
     double search_doubt; // left by this pad when it was last searched for
 };
 
@@ -57,6 +95,7 @@ struct detect_hint {
     double height_m;       // of the camera, along its axis, as the LiDAR says; 0 = not known
     bool searching;        // the thresholds have not the usual factor: most of what is seen is clutter
     const struct pad_view *last; // of the pad a moment ago, or NULL: tried first, and if it leaves little doubt, alone
+    bool last_fused;             // its inner shapes were seen as one
     double last_doubt;           // that it may leave: what it left when nothing better was found
 };
 

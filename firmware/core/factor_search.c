@@ -19,7 +19,7 @@ uint32_t factor_search_factor(const struct factor_search *search)
     return factors[search->place];
 }
 
-void factor_search_update(struct factor_search *search, bool found, uint32_t factor)
+void factor_search_update(struct factor_search *search, bool found, bool ended, uint32_t factor)
 {
     // A change shows a few frames later; frames of the factor before say nothing of this one.
     if (factor != factors[search->place]) {
@@ -30,7 +30,7 @@ void factor_search_update(struct factor_search *search, bool found, uint32_t fac
         return;
     }
     search->misses++;
-    if (search->misses >= (search->place == 0U ? MISSES_USUAL : MISSES_OTHER)) {
+    if (ended && search->misses >= (search->place == 0U ? MISSES_USUAL : MISSES_OTHER)) {
         search->place = (search->place + 1U) % FACTORS;
         search->misses = 0U;
     }

@@ -22,7 +22,7 @@ uint32_t factor_search_factor(const struct factor_search *search);
 // True for the factor that most light needs.
 bool factor_search_is_usual(uint32_t factor);
 
-// One frame, taken with thresholds of `factor`.
-void factor_search_update(struct factor_search *search, bool found, uint32_t factor);
+// One frame, taken with thresholds of `factor`. `ended`: all places in it were looked at; before, the factor stays.
+void factor_search_update(struct factor_search *search, bool found, bool ended, uint32_t factor);
 
 #endif

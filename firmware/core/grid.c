@@ -51,17 +51,22 @@ void grid_near(const struct grid *grid, double x_px, double y_px, double square_
     const int first_column = place_in((x_px - reach_px) * grid->columns_per_px, GRID_COLUMNS);
     const int last_column = place_in((x_px + reach_px) * grid->columns_per_px, GRID_COLUMNS);
 
-    near->count = 0;
+    int looked_at = 0;
+    int count = 0;
     for (int row = place_in((y_px - reach_px) * grid->rows_per_px, GRID_ROWS); row <= last_row; row++) {
         const int end = grid->first[row * GRID_COLUMNS + last_column + 1];
-        for (int i = grid->first[row * GRID_COLUMNS + first_column]; i < end; i++) {
+        const int begin = grid->first[row * GRID_COLUMNS + first_column];
+        looked_at += end - begin;
+        for (int i = begin; i < end; i++) {
             const struct shape *shape = &grid->scratch->candidates[grid->order[i]].shape;
             const double x = shape->x_px - x_px;
             const double y = shape->y_px - y_px;
             if (x * x + y * y <= square_reach_px) {
-                near->list[near->count] = grid->order[i];
-                near->count++;
+                near->list[count] = grid->order[i];
+                count++;
             }
         }
     }
+    near->looked_at = looked_at;
+    near->count = count;
 }

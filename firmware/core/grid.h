@@ -20,6 +20,7 @@ struct grid {
 
 // Candidates, by their number.
 struct grid_near {
+    int looked_at; // in the cells gone through
     int count;
     uint16_t list[LANDING_RECORD_MAX_OBJECTS];
 };

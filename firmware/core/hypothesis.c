@@ -50,6 +50,10 @@ static const struct range near_small_ring_invariant = {7.6, 9.8};
 // Area of a square or rectangle that the border may cut, to that of the small ring: whole ones have 3.2 and 6.4.
 static const struct range cut_to_small_ring_area = {0.5, 9.0};
 static const struct range cut_distance_mm = {22.0, 85.0};
+static const struct range near_height = {0.5, 2.0}; // as a level view has it, to what the LiDAR says
+// Where the LiDAR says otherwise, only the best are tried: from far away, clutter has many such.
+#define CONTRADICTED_ERROR 100.0
+#define CONTRADICTED_MAX 2
 // Places are in parts of the line between square and rectangle.
 #define SMALL_RING_MISS 0.10
 // A piece of the ring, wherever its other pieces are: root mean square of the distances to the centre.
@@ -185,16 +189,20 @@ struct surroundings {
     double clutter;    // dark things inside the ring that are not of the pad, in rectangles
 };
 
-// What is whole and looks like a ring counts without `pieces`.
-static struct surroundings surroundings_of(const struct grid *grid, const struct affine *affine,
-                                           const struct shape *square_shape, const struct shape *rectangle, bool pieces)
+// What is whole and looks like a ring counts without DETECT_RING_PIECES.
+static struct surroundings surroundings_of(const struct hypothesis_source *source, const struct affine *affine,
+                                           const struct shape *square_shape, const struct shape *rectangle,
+                                           struct work *work)
 {
+    const struct grid *grid = source->grid;
+    const bool pieces = (source->options & DETECT_RING_PIECES) != 0U;
     struct surroundings around = {.ring_share = 0.0};
     struct grid_near near;
 
     // Whatever has its centroid farther away than this is no piece.
     grid_near(grid, affine->origin.x, affine->origin.y,
               piece_radius_mm.greatest * piece_radius_mm.greatest * square_scale(affine), &near);
+    work->done += WORK_NEAR + WORK_LOOK * near.looked_at + WORK_AROUND * near.count;
     for (int i = 0; i < near.count; i++) {
         const struct candidate *candidate = &grid->scratch->candidates[near.list[i]];
         const double square = square_radius(affine, &candidate->shape);
@@ -212,12 +220,14 @@ static struct surroundings surroundings_of(const struct grid *grid, const struct
     return around;
 }
 
-static bool has_small_ring(const struct grid *grid, const struct affine *affine, const struct shape *rectangle)
+static bool has_small_ring(const struct grid *grid, const struct affine *affine, const struct shape *rectangle,
+                           struct work *work)
 {
     const double miss_mm = SMALL_RING_MISS * BASELINE;
     struct grid_near near;
 
     grid_near(grid, affine->origin.x, affine->origin.y, miss_mm * miss_mm * square_scale(affine), &near);
+    work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
     for (int i = 0; i < near.count; i++) {
         const struct shape *shape = &grid->scratch->candidates[near.list[i]].shape;
         if (!in_range(shape->area_px / rectangle->area_px, small_ring_to_rectangle_area) ||
@@ -250,14 +260,15 @@ static bool is_far(const struct shape *rectangle, double seen_m, double height_m
            seen_m < (1.0 + FAR_HEIGHT_TOLERANCE) * height_m;
 }
 
-static void consider_pair(const struct grid *grid, const struct camera *camera, double height_m,
-                          uint32_t options, const struct shape *square, const struct shape *rectangle,
-                          struct hypotheses *found)
+static void consider_pair(const struct hypothesis_source *source, const struct shape *square,
+                          const struct shape *rectangle, struct work *work, struct hypotheses *found)
 {
+    const double height_m = source->height_m;
     const struct vector line = shape_offset(rectangle, square);
     const double squared = shape_inner(rectangle, line, line);
     struct affine affine;
 
+    work->done += WORK_PAIR;
     if (!(squared >= baseline_to_rectangle.least * baseline_to_rectangle.least) ||
         !(squared <= baseline_to_rectangle.greatest * baseline_to_rectangle.greatest)) {
         return;
@@ -266,16 +277,16 @@ static void consider_pair(const struct grid *grid, const struct camera *camera, 
     if (!in_range(variance, square_to_rectangle_variance) || !affine_of_pair(square, rectangle, &affine)) {
         return;
     }
-    const struct surroundings around =
-        surroundings_of(grid, &affine, square, rectangle, (options & DETECT_RING_PIECES) != 0U);
+    work->done += WORK_HYPOTHESIS;
+    const struct surroundings around = surroundings_of(source, &affine, square, rectangle, work);
     struct hypothesis hypothesis = {.fused = false};
-    if (!view_of(&affine, camera, &hypothesis.view)) {
+    if (!view_of(&affine, source->camera, &hypothesis.view)) {
         return;
     }
-    const double seen_m = height_of(camera, &hypothesis.view);
+    const double seen_m = height_of(source->camera, &hypothesis.view);
     if (!(seen_m > 0.0) ||
-        (around.ring_share < RING_SHARE_MIN && !has_small_ring(grid, &affine, rectangle) &&
-         !((options & DETECT_FAR) != 0U && is_far(rectangle, seen_m, height_m)))) {
+        (around.ring_share < RING_SHARE_MIN && !has_small_ring(source->grid, &affine, rectangle, work) &&
+         !((source->options & DETECT_FAR) != 0U && is_far(rectangle, seen_m, height_m)))) {
         return;
     }
     hypothesis.error = deviation(square->area_px / rectangle->area_px, SQUARE_AREA / RECTANGLE_AREA) +
@@ -291,14 +302,27 @@ static void consider_pair(const struct grid *grid, const struct camera *camera, 
     keep(found, &hypothesis);
 }
 
-void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
-                           uint32_t options, struct hypotheses *found)
+// Where a list goes on that was cut short at a candidate: there, unless that one alone took all the time.
+static int next_from(int candidate, int from)
 {
-    struct grid grid;
+    return candidate > from ? candidate : candidate + 1;
+}
+
+// No variance exceeds the greater of both axes; their sum and their product say how great that is.
+static double greatest_variance(const struct shape *shape)
+{
+    const double difference = (shape->cov_xx - shape->cov_yy) / 2.0;
+
+    return (shape->cov_xx + shape->cov_yy) / 2.0 + sqrt(difference * difference + shape->cov_xy * shape->cov_xy);
+}
+
+int hypotheses_from_pairs(const struct hypothesis_source *source, int from, struct work *work,
+                          struct hypotheses *found)
+{
+    const struct detect_scratch *scratch = source->grid->scratch;
     struct grid_near near;
 
-    grid_sort(scratch, camera, &grid);
-    for (int i = 0; i < scratch->count; i++) {
+    for (int i = from; i < scratch->count; i++) {
         const struct shape *rectangle = &scratch->candidates[i].shape;
         // One that touches the border may be whole all the same.
         if (!in_range(rectangle->invariant, solid_invariant)) {
@@ -306,25 +330,29 @@ void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct ca
         }
         const double least = square_to_rectangle_area.least * rectangle->area_px;
         const double greatest = square_to_rectangle_area.greatest * rectangle->area_px;
-        // No variance exceeds the sum of both: most pairs are farther apart.
-        grid_near(&grid, rectangle->x_px, rectangle->y_px,
-                  baseline_to_rectangle.greatest * baseline_to_rectangle.greatest *
-                      (rectangle->cov_xx + rectangle->cov_yy),
+        grid_near(source->grid, rectangle->x_px, rectangle->y_px,
+                  baseline_to_rectangle.greatest * baseline_to_rectangle.greatest * greatest_variance(rectangle),
                   &near);
+        work->done += WORK_NEAR + WORK_LOOK * (near.looked_at + near.count);
         for (int j = 0; j < near.count; j++) {
             const struct shape *square = &scratch->candidates[near.list[j]].shape;
+            if (work_is_over(work)) {
+                return next_from(i, from);
+            }
             if (square->area_px >= least && square->area_px <= greatest &&
                 in_range(square->invariant, solid_invariant)) {
-                consider_pair(&grid, camera, height_m, options, square, rectangle, found);
+                consider_pair(source, square, rectangle, work, found);
             }
         }
     }
+    return 0;
 }
 
 // `other` as rectangle (below) or square (above) of the pad whose small ring this is.
-static void consider_close(const struct camera *camera, const struct shape *small_ring, const struct shape *other,
-                           bool below, struct hypotheses *found)
+static void consider_close(const struct hypothesis_source *source, const struct shape *small_ring,
+                           const struct shape *other, bool below, struct work *work, struct hypotheses *found)
 {
+    const double height_m = source->height_m;
     const double scale = sqrt(small_ring->area_px / SMALL_RING_AREA);
     const struct vector offset = shape_offset(small_ring, other);
     const double distance = sqrt(offset.x * offset.x + offset.y * offset.y);
@@ -337,7 +365,11 @@ static void consider_close(const struct camera *camera, const struct shape *smal
     };
     struct hypothesis hypothesis = {.fused = false};
 
-    if (!in_range(distance / scale, cut_distance_mm) || !view_of(&affine, camera, &hypothesis.view)) {
+    if (!in_range(distance / scale, cut_distance_mm)) {
+        return;
+    }
+    work->done += WORK_HYPOTHESIS;
+    if (!view_of(&affine, source->camera, &hypothesis.view)) {
         return;
     }
     hypothesis.error = deviation(distance / scale, below ? RECTANGLE_CENTRE_Y_MM : -SQUARE_CENTRE_Y_MM) +
@@ -345,35 +377,65 @@ static void consider_close(const struct camera *camera, const struct shape *smal
                                  (below ? RECTANGLE_AREA : SQUARE_AREA) / SMALL_RING_AREA) +
                        deviation(small_ring->invariant,
                                  SHAPE_INVARIANT_RING(SMALL_RING_INNER_RADIUS_MM / SMALL_RING_OUTER_RADIUS_MM));
+    if (height_m > 0.0 && !in_range(height_of(source->camera, &hypothesis.view) / height_m, near_height)) {
+        hypothesis.error += CONTRADICTED_ERROR;
+    }
     keep(found, &hypothesis);
 }
 
-void hypotheses_from_small_rings(const struct detect_scratch *scratch, const struct camera *camera,
-                                 struct hypotheses *found)
+static int list_small_rings(const struct hypothesis_source *source, int from, struct work *work,
+                            struct hypotheses *found)
 {
-    for (int i = 0; i < scratch->count; i++) {
+    const struct detect_scratch *scratch = source->grid->scratch;
+    struct grid_near near;
+
+    for (int i = from; i < scratch->count; i++) {
         const struct candidate *small_ring = &scratch->candidates[i];
         if (small_ring->clipped || small_ring->shape.area_px < NEAR_SMALL_RING_AREA_MIN_PX ||
             !in_range(small_ring->shape.invariant, near_small_ring_invariant)) {
             continue;
         }
-        for (int j = 0; j < scratch->count; j++) {
-            const struct shape *other = &scratch->candidates[j].shape;
-            if (j != i && in_range(other->area_px / small_ring->shape.area_px, cut_to_small_ring_area)) {
-                consider_close(camera, &small_ring->shape, other, true, found);
-                consider_close(camera, &small_ring->shape, other, false, found);
+        grid_near(source->grid, small_ring->shape.x_px, small_ring->shape.y_px,
+                  cut_distance_mm.greatest * cut_distance_mm.greatest * small_ring->shape.area_px / SMALL_RING_AREA,
+                  &near);
+        work->done += WORK_NEAR + WORK_LOOK * (near.looked_at + near.count);
+        for (int j = 0; j < near.count; j++) {
+            const struct shape *other = &scratch->candidates[near.list[j]].shape;
+            if (work_is_over(work)) {
+                return next_from(i, from);
+            }
+            if (near.list[j] != i && in_range(other->area_px / small_ring->shape.area_px, cut_to_small_ring_area)) {
+                work->done += WORK_PAIR;
+                consider_close(source, &small_ring->shape, other, true, work, found);
+                consider_close(source, &small_ring->shape, other, false, work, found);
             }
         }
     }
+    return 0;
+}
+
+int hypotheses_from_small_rings(const struct hypothesis_source *source, int from, struct work *work,
+                                struct hypotheses *found)
+{
+    const int next = list_small_rings(source, from, work, found);
+
+    while (found->count > CONTRADICTED_MAX && found->list[found->count - 1].error > CONTRADICTED_ERROR) {
+        found->count--;
+    }
+    return next;
 }
 
 // All that lies inside a ring as one shape. False when it weighs too little or too much.
-static bool merge_inner(const struct detect_scratch *scratch, const struct shape *ring, struct shape *merged)
+static bool merge_inner(const struct grid *grid, const struct shape *ring, struct work *work, struct shape *merged)
 {
     struct shape_sum inner = {.origin = *ring};
+    struct grid_near near;
 
-    for (int i = 0; i < scratch->count; i++) {
-        const struct shape *shape = &scratch->candidates[i].shape;
+    grid_near(grid, ring->x_px, ring->y_px,
+              INNER_RADIUS_MAX_MM * INNER_RADIUS_MAX_MM * greatest_variance(ring) / (RING_SQUARE_RADIUS / 2.0), &near);
+    work->done += WORK_NEAR + WORK_LOOK * near.looked_at + WORK_AROUND * near.count;
+    for (int i = 0; i < near.count; i++) {
+        const struct shape *shape = &grid->scratch->candidates[near.list[i]].shape;
         const struct vector offset = shape_offset(ring, shape);
         const double squared = RING_SQUARE_RADIUS / 2.0 * shape_inner(ring, offset, offset);
         if (shape == ring || !(squared < INNER_RADIUS_MAX_MM * INNER_RADIUS_MAX_MM) ||
@@ -389,16 +451,22 @@ static bool merge_inner(const struct detect_scratch *scratch, const struct shape
     return true;
 }
 
-void hypotheses_from_rings(const struct detect_scratch *scratch, const struct camera *camera,
-                           struct hypotheses *found)
+int hypotheses_from_rings(const struct hypothesis_source *source, int from, struct work *work,
+                          struct hypotheses *found)
 {
-    for (int i = 0; i < scratch->count; i++) {
+    const struct detect_scratch *scratch = source->grid->scratch;
+
+    for (int i = from; i < scratch->count; i++) {
         const struct candidate *ring = &scratch->candidates[i];
         struct shape merged;
+        if (work_is_over(work)) {
+            return next_from(i, from);
+        }
         if (ring->clipped || !in_range(ring->shape.invariant, ring_invariant) ||
-            !merge_inner(scratch, &ring->shape, &merged)) {
+            !merge_inner(source->grid, &ring->shape, work, &merged)) {
             continue;
         }
+        work->done += WORK_HYPOTHESIS;
         // The shapes lie along one line through the centre; which end is which, the fit will say.
         double long_px;
         double short_px;
@@ -414,7 +482,7 @@ void hypotheses_from_rings(const struct detect_scratch *scratch, const struct ca
                 .det = scale * scale,
             };
             struct hypothesis hypothesis = {.fused = true};
-            if (view_of(&affine, camera, &hypothesis.view)) {
+            if (view_of(&affine, source->camera, &hypothesis.view)) {
                 // The rectangle weighs more.
                 hypothesis.error = (axis.x * offset.x + axis.y * offset.y) * sign < 0.0 ? 1.0 : 0.0;
                 hypothesis.error +=
@@ -423,4 +491,5 @@ void hypotheses_from_rings(const struct detect_scratch *scratch, const struct ca
             }
         }
     }
+    return 0;
 }

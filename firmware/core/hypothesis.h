@@ -4,32 +4,31 @@
 #define TOUCHDOWN_HYPOTHESIS_H
 
 #include "detect.h"
+#include "grid.h"
 
-#define HYPOTHESES 6
-
-struct hypothesis {
-    struct pad_view view; // near enough to be fitted
-    bool fused;           // the inner shapes have run together
-    double error;         // the least is tried first
+// What the lists are made from.
+struct hypothesis_source {
+    const struct grid *grid;
+    const struct camera *camera;
+    double height_m; // as the LiDAR says; 0 = not known
+    uint32_t options;
 };
 
-struct hypotheses {
-    int count;
-    struct hypothesis list[HYPOTHESES]; // the best of all, by rising error
-};
+// Each begins a list with the candidate `from` and stops when the frame's time is over.
+// Returns with which one it goes on; 0 when there is nothing left.
 
 // Square and rectangle, by the ratios that no tilt changes. Each pair needs
 // something else of the pad around it: pieces of the ring, or the small ring, or
 // from afar, where both are too thin to be seen, a height that the LiDAR confirms.
-void hypotheses_from_pairs(const struct detect_scratch *scratch, const struct camera *camera, double height_m,
-                           uint32_t options, struct hypotheses *found);
+int hypotheses_from_pairs(const struct hypothesis_source *source, int from, struct work *work,
+                          struct hypotheses *found);
 
 // A small ring seen from close by, with large shapes on one side or both.
-void hypotheses_from_small_rings(const struct detect_scratch *scratch, const struct camera *camera,
-                                 struct hypotheses *found);
+int hypotheses_from_small_rings(const struct hypothesis_source *source, int from, struct work *work,
+                                struct hypotheses *found);
 
 // A whole ring with dark things inside that weigh and lie as the inner shapes do together.
-void hypotheses_from_rings(const struct detect_scratch *scratch, const struct camera *camera,
-                           struct hypotheses *found);
+int hypotheses_from_rings(const struct hypothesis_source *source, int from, struct work *work,
+                          struct hypotheses *found);
 
 #endif

@@ -18,6 +18,9 @@
 #define HOPELESS_PAIR_COST 100.0
 #define CRAWLING_PAIR_STEPS 4
 #define CRAWLING_PAIR_COST 40.0
+// Twice the misfit that a pad may have, and a step that makes it no smaller.
+#define STUCK_MISFIT 4.0
+#define STUCK_GAIN 0.02
 
 // How well each thing can be known. Centroids of solid shapes: to a fraction of
 // a pixel, and paper is curled by some thousandths of its size. A wide ring
@@ -135,8 +138,25 @@ struct expectation {
     double facing;
 };
 
+static enum pad_sampling sampling_of(const struct sighting *sighting, bool rough)
+{
+    return !sighting->clipped ? PAD_WHOLE : rough ? PAD_ROUGH : PAD_CLIPPED;
+}
+
+// What the expectation of a view costs, and what is compared with it.
+static int work_of_view(const struct pad_evidence *evidence, bool rough)
+{
+    int work = WORK_VIEW;
+
+    for (int i = 0; i < evidence->count; i++) {
+        const struct sighting *sighting = &evidence->sightings[i];
+        work += pad_plane_work(sighting->kinds, sampling_of(sighting, rough));
+    }
+    return work;
+}
+
 static int expect(const struct pad_evidence *evidence, const struct camera *camera, const struct pad_view *view,
-                  struct expectation *expectation)
+                  bool rough, struct expectation *expectation)
 {
     struct pad_plane plane;
 
@@ -147,7 +167,8 @@ static int expect(const struct pad_evidence *evidence, const struct camera *came
     for (int i = 0; i < evidence->count; i++) {
         const struct sighting *sighting = &evidence->sightings[i];
         struct shape *shape = &expectation->shapes[i];
-        expectation->inside[i] = pad_plane_moments(&plane, camera, sighting->kinds, sighting->clipped, shape);
+        expectation->inside[i] =
+            pad_plane_moments(&plane, camera, sighting->kinds, sampling_of(sighting, rough), shape);
         if (!(expectation->inside[i] > 0.02) || !(shape->area_px > 1.0)) {
             return PAD_FIT_E_LOST;
         }
@@ -223,26 +244,64 @@ struct guess {
     double cost;
 };
 
+// Of freedom. The priors stand for as many observations as there are parameters less four.
+static double degrees_of(const struct guess *guess)
+{
+    return guess->terms.count > 5 ? guess->terms.count - 4 : 1;
+}
+
 // How the residuals answer to each parameter.
 struct slopes {
     double of[PAD_PARAMETERS][RESIDUALS];
 };
 
+// What slopes and the step along them cost.
+static int work_of_step(const struct pad_evidence *evidence)
+{
+    return PAD_PARAMETERS * work_of_view(evidence, true) + work_of_view(evidence, false) + WORK_STEP;
+}
+
+static bool is_clipped(const struct pad_evidence *evidence)
+{
+    bool clipped = false;
+
+    for (int i = 0; i < evidence->count; i++) {
+        clipped = clipped || evidence->sightings[i].clipped;
+    }
+    return clipped;
+}
+
+static int work_of_small_step(const struct pad_evidence *evidence)
+{
+    return work_of_view(evidence, false) + WORK_STEP;
+}
+
 static bool slopes_at(const struct pad_evidence *evidence, const struct camera *camera, const struct guess *at,
                       struct slopes *slopes)
 {
+    struct expectation rough;
+    struct terms rough_terms;
+    const bool clipped = is_clipped(evidence);
+    const struct expectation *here = clipped ? &rough : &at->expectation;
+    const struct terms *terms = clipped ? &rough_terms : &at->terms;
+
+    if (clipped) {
+        if (expect(evidence, camera, &at->view, true, &rough) != 0) {
+            return false;
+        }
+        residuals_of(evidence, &rough, at->view.value[PAD_EDGE_PX], &rough_terms);
+    }
     for (int i = 0; i < PAD_PARAMETERS; i++) {
         struct pad_view moved = at->view;
         struct expectation moved_expectation;
         struct terms there;
         moved.value[i] += step_sizes[i];
-        if (i != PAD_EDGE_PX && expect(evidence, camera, &moved, &moved_expectation) != 0) {
+        if (i != PAD_EDGE_PX && expect(evidence, camera, &moved, true, &moved_expectation) != 0) {
             return false;
         }
-        residuals_of(evidence, i != PAD_EDGE_PX ? &moved_expectation : &at->expectation, moved.value[PAD_EDGE_PX],
-                     &there);
+        residuals_of(evidence, i != PAD_EDGE_PX ? &moved_expectation : here, moved.value[PAD_EDGE_PX], &there);
         for (int k = 0; k < there.count; k++) {
-            slopes->of[i][k] = (at->terms.residual[k] - there.residual[k]) / step_sizes[i];
+            slopes->of[i][k] = (terms->residual[k] - there.residual[k]) / step_sizes[i];
         }
     }
     return true;
@@ -255,6 +314,12 @@ static bool is_hopeless(const struct pad_evidence *evidence, int steps, double c
     }
     return (steps >= HOPELESS_PAIR_STEPS && cost > HOPELESS_PAIR_COST) ||
            (steps >= CRAWLING_PAIR_STEPS && cost > CRAWLING_PAIR_COST);
+}
+
+// Neither near nor getting nearer.
+static bool is_stuck(const struct guess *at, double gain)
+{
+    return gain < STUCK_GAIN * at->cost && at->cost > STUCK_MISFIT * degrees_of(at);
 }
 
 // So small a step that the slopes where it began serve for the next one too: taking them costs six times what a step
@@ -305,7 +370,7 @@ static bool weigh(const struct pad_evidence *evidence, const struct camera *came
                   struct guess *guess)
 {
     guess->terms.count = 0;
-    if (expect(evidence, camera, &guess->view, &guess->expectation) != 0) {
+    if (expect(evidence, camera, &guess->view, false, &guess->expectation) != 0) {
         return false;
     }
     residuals_of(evidence, &guess->expectation, guess->view.value[PAD_EDGE_PX], &guess->terms);
@@ -313,32 +378,34 @@ static bool weigh(const struct pad_evidence *evidence, const struct camera *came
     return true;
 }
 
-// From where it starts to the nearest least cost. False when it leaves what the camera can see.
-static bool descend(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-                    struct guess *best, int *slopes_taken)
+// From where it starts to the nearest least cost, or as far as there is time.
+static int descend(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
+                   struct guess *best, int *steps, struct work *work)
 {
     struct slopes slopes;
     bool known = false; // the slopes, well enough for the next step
     bool here = false;  // they were taken at this view
     double damping = 1e-4;
 
-    for (int i = 0; i < PAD_FIT_STEPS; i++) {
+    for (; *steps < PAD_FIT_STEPS; (*steps)++) {
         double step[PAD_PARAMETERS];
         struct guess moved;
-        *slopes_taken += known ? 0 : 1;
+        if (!work_take(work, known ? work_of_small_step(evidence) : work_of_step(evidence))) {
+            return PAD_FIT_UNFINISHED;
+        }
         if (!known && !slopes_at(evidence, camera, best, &slopes)) {
-            return false;
+            return PAD_FIT_E_LOST;
         }
         here = here || !known;
         if (!step_of(&slopes, tilt, best, damping, step)) {
-            return false;
+            return PAD_FIT_E_LOST;
         }
         for (int k = 0; k < PAD_PARAMETERS; k++) {
             moved.view.value[k] = best->view.value[k] + step[k];
         }
         const bool valid = weigh(evidence, camera, tilt, &moved);
         if (!valid || !(moved.cost < best->cost)) {
-            if ((valid && moved.cost < best->cost + GAIN_MIN) || is_hopeless(evidence, i, best->cost)) {
+            if ((valid && moved.cost < best->cost + GAIN_MIN) || is_hopeless(evidence, *steps, best->cost)) {
                 break;
             }
             // Slopes of the view before are taken anew first.
@@ -352,27 +419,30 @@ static bool descend(const struct pad_evidence *evidence, const struct camera *ca
         known = is_small(step);
         here = false;
         if (fabs(step[PAD_X_PX]) + fabs(step[PAD_Y_PX]) < CONVERGED_PX || gain < GAIN_MIN ||
-            is_hopeless(evidence, i, best->cost)) {
+            is_stuck(best, gain) || is_hopeless(evidence, *steps, best->cost)) {
             break;
         }
     }
-    return true;
+    return 0;
 }
 
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-            struct pad_view *view, double *misfit, double *worst, int *slopes_taken)
+            struct pad_view *view, double *misfit, double *worst, int *steps, struct work *work)
 {
-    struct guess best = {.view = *view};
+    struct guess best;
 
-    if (!weigh(evidence, camera, tilt, &best) || !descend(evidence, camera, tilt, &best, slopes_taken)) {
-        return PAD_FIT_E_LOST;
+    best.view = *view;
+    work->done += work_of_view(evidence, false);
+    const int result =
+        weigh(evidence, camera, tilt, &best) ? descend(evidence, camera, tilt, &best, steps, work) : PAD_FIT_E_LOST;
+    if (result == PAD_FIT_E_LOST) {
+        return result;
     }
     *view = best.view;
-    // The priors stand for as many observations as there are parameters less four.
-    *misfit = best.cost / (best.terms.count > 5 ? best.terms.count - 4 : 1);
+    *misfit = best.cost / degrees_of(&best);
     *worst = 0.0;
     for (int i = 0; i < best.terms.count; i++) {
         *worst = at_least(fabs(best.terms.residual[i]), *worst);
     }
-    return 0;
+    return result;
 }

@@ -7,8 +7,10 @@
 #include <stdbool.h>
 
 #include "pad_view.h"
+#include "work.h"
 
-enum { PAD_FIT_E_LOST = -1 };
+// UNFINISHED: no time is left; the view is better than it was, and another call goes on from there.
+enum { PAD_FIT_E_LOST = -1, PAD_FIT_UNFINISHED = 1 };
 
 #define PAD_FIT_SIGHTINGS 4
 #define PAD_FIT_STEPS 16
@@ -35,9 +37,8 @@ struct tilt_hint {
 
 // Improves `view`, which has to be near. `misfit`: mean square of the residuals
 // in standard deviations for each degree of freedom; 1 is what noise alone gives.
-// `worst`: the greatest residual. `slopes_taken` grows with what the fit costs: by one for each time that the residuals'
-// slopes were taken, at most PAD_FIT_STEPS.
+// `worst`: the greatest residual. `steps` grows with each step; of PAD_FIT_STEPS or more none is taken.
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-            struct pad_view *view, double *misfit, double *worst, int *slopes_taken);
+            struct pad_view *view, double *misfit, double *worst, int *steps, struct work *work);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "bounds.h"
 #include "pad_geometry.h"
+#include "work.h"
 
 #define PI 3.14159265358979323846
 
@@ -12,8 +13,10 @@
 #define GAUSS_2 0.28867513459481287
 #define CELLS_COARSE 2
 #define CELLS_FINE 6
+#define CELLS_ROUGH 3
 // Angles on an annulus, in tens of degrees.
 #define TENS_FINE 1
+#define TENS_ROUGH 2
 #define RADII_FINE 2
 
 struct box {
@@ -67,12 +70,17 @@ int pad_plane_of(const struct pad_view *view, const struct camera *camera, struc
     plane->down[0] = normal[1] * across[2] - normal[2] * across[1];
     plane->down[1] = normal[2] * across[0] - normal[0] * across[2];
     plane->down[2] = normal[0] * across[1] - normal[1] * across[0];
+    plane->height_mm = dot(plane->centre, normal);
+    plane->foot_x_mm = -dot(plane->centre, plane->across);
+    plane->foot_y_mm = -dot(plane->centre, plane->down);
+    // Where a pixel of noise is metres.
+    plane->grazing_mm = 0.05 * plane->height_mm * plane->height_mm / distance_mm;
     return 0;
 }
 
 double pad_plane_facing(const struct pad_plane *plane)
 {
-    return fabs(dot(plane->centre, plane->normal)) / sqrt(dot(plane->centre, plane->centre));
+    return fabs(plane->height_mm) / sqrt(dot(plane->centre, plane->centre));
 }
 
 static void point_of(const struct pad_plane *plane, double x_mm, double y_mm, double point[3])
@@ -91,6 +99,18 @@ void pad_plane_project(const struct pad_plane *plane, const struct camera *camer
     (void)camera_image(camera, point, x_px, y_px);
 }
 
+int pad_plane_meet(const struct pad_plane *plane, const double direction[3], double *x_mm, double *y_mm)
+{
+    const double slope = dot(direction, plane->normal);
+    if (!(slope * plane->height_mm > plane->grazing_mm)) {
+        return CAMERA_E_OUTSIDE;
+    }
+    const double distance_mm = plane->height_mm / slope;
+    *x_mm = plane->foot_x_mm + distance_mm * dot(direction, plane->across);
+    *y_mm = plane->foot_y_mm + distance_mm * dot(direction, plane->down);
+    return 0;
+}
+
 int pad_plane_unproject(const struct pad_plane *plane, const struct camera *camera, double x_px, double y_px,
                         double *x_mm, double *y_mm)
 {
@@ -99,26 +119,14 @@ int pad_plane_unproject(const struct pad_plane *plane, const struct camera *came
     if (camera_direction(camera, x_px, y_px, direction) != 0) {
         return CAMERA_E_OUTSIDE;
     }
-    const double slope = dot(direction, plane->normal);
-    const double height = dot(plane->centre, plane->normal);
-    // Grazing rays meet the plane far away, where a pixel of noise is metres.
-    if (!(slope * height > 0.05 * height * height / sqrt(dot(plane->centre, plane->centre)))) {
-        return CAMERA_E_OUTSIDE;
-    }
-    double offset[3];
-    for (int i = 0; i < 3; i++) {
-        offset[i] = direction[i] * height / slope - plane->centre[i];
-    }
-    *x_mm = dot(offset, plane->across);
-    *y_mm = dot(offset, plane->down);
-    return 0;
+    return pad_plane_meet(plane, direction, x_mm, y_mm);
 }
 
 // Sums over the sample points of one sighting.
 struct sums {
     const struct pad_plane *plane;
     const struct camera *camera;
-    bool clipped;
+    enum pad_sampling sampling;
     double height_mm;   // of the camera above the plane
     double origin_x_px; // near the shapes, so that nothing cancels
     double origin_y_px;
@@ -152,7 +160,7 @@ static void add_point(struct sums *sums, double x_mm, double y_mm, double area_m
     double area = area_mm2 * scale * sums->height_mm / sqrt(dot(point, point));
 
     sums->whole += area;
-    if (sums->clipped) {
+    if (sums->sampling != PAD_WHOLE) {
         area *= share_inside(sums->camera, x_px, y_px, sqrt(area));
     }
     const double x = x_px - sums->origin_x_px;
@@ -165,10 +173,26 @@ static void add_point(struct sums *sums, double x_mm, double y_mm, double area_m
     sums->yy += area * y * y;
 }
 
+// Along each side of a box.
+static int cells_of(enum pad_sampling sampling)
+{
+    return sampling == PAD_WHOLE ? CELLS_COARSE : sampling == PAD_CLIPPED ? CELLS_FINE : CELLS_ROUGH;
+}
+
+static int tens_of(const struct annulus *annulus, enum pad_sampling sampling)
+{
+    return sampling == PAD_WHOLE ? annulus->tens_coarse : sampling == PAD_CLIPPED ? TENS_FINE : TENS_ROUGH;
+}
+
+static int radii_of(enum pad_sampling sampling)
+{
+    return sampling == PAD_CLIPPED ? RADII_FINE : 1;
+}
+
 static void add_box(struct sums *sums, const struct box *box)
 {
-    const int cells = sums->clipped ? CELLS_FINE : CELLS_COARSE;
-    const double pitch = sums->clipped ? 1.0 / CELLS_FINE : 2.0 * GAUSS_2;
+    const int cells = cells_of(sums->sampling);
+    const double pitch = sums->sampling != PAD_WHOLE ? 1.0 / cells : 2.0 * GAUSS_2;
     const double first = -0.5 * pitch * (cells - 1);
     const double area = box->width_mm * box->height_mm / (cells * cells);
 
@@ -222,8 +246,8 @@ static const double circle[36][2] = {
 
 static void add_annulus(struct sums *sums, const struct annulus *annulus)
 {
-    const int step = sums->clipped ? TENS_FINE : annulus->tens_coarse;
-    const int radii = sums->clipped ? RADII_FINE : 1;
+    const int step = tens_of(annulus, sums->sampling);
+    const int radii = radii_of(sums->sampling);
     const double outer = annulus->outer_mm * annulus->outer_mm;
     const double inner = annulus->inner_mm * annulus->inner_mm;
     const double area = PI * (outer - inner) * step / (36 * radii);
@@ -237,14 +261,23 @@ static void add_annulus(struct sums *sums, const struct annulus *annulus)
     }
 }
 
-double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds, bool clipped,
-                         struct shape *seen)
+double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds,
+                         enum pad_sampling sampling, struct shape *seen)
 {
-    struct sums sums = {.plane = plane,
-                        .camera = camera,
-                        .clipped = clipped,
-                        .height_mm = fabs(dot(plane->centre, plane->normal))};
+    // One by one: the compiler calls memset for what an initializer leaves out.
+    struct sums sums;
 
+    sums.plane = plane;
+    sums.camera = camera;
+    sums.sampling = sampling;
+    sums.height_mm = fabs(plane->height_mm);
+    sums.whole = 0.0;
+    sums.area = 0.0;
+    sums.x = 0.0;
+    sums.y = 0.0;
+    sums.xx = 0.0;
+    sums.xy = 0.0;
+    sums.yy = 0.0;
     (void)camera_image(camera, plane->centre, &sums.origin_x_px, &sums.origin_y_px);
     if ((kinds & PAD_SQUARE) != 0U) {
         add_box(&sums, &square);
@@ -270,6 +303,18 @@ double pad_plane_moments(const struct pad_plane *plane, const struct camera *cam
     seen->cov_xy = sums.xy / sums.area - x * y;
     seen->cov_yy = sums.yy / sums.area - y * y;
     return sums.area / sums.whole;
+}
+
+int pad_plane_work(unsigned kinds, enum pad_sampling sampling)
+{
+    const int box = cells_of(sampling) * cells_of(sampling);
+    const int round = 36 * radii_of(sampling);
+
+    const int points = ((kinds & PAD_SQUARE) != 0U ? box : 0) + ((kinds & PAD_RECTANGLE) != 0U ? box : 0) +
+                       ((kinds & PAD_SMALL_RING) != 0U ? round / tens_of(&small_ring, sampling) : 0) +
+                       ((kinds & PAD_RING) != 0U ? round / tens_of(&ring, sampling) : 0);
+
+    return points * (sampling == PAD_WHOLE ? WORK_POINT : WORK_CLIPPED_POINT);
 }
 
 static double box_edge_mm(const struct box *box)

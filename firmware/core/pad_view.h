@@ -36,6 +36,10 @@ struct pad_plane {
     double across[3]; // unit vectors: the pad's x and y
     double down[3];
     double normal[3];
+    double height_mm;  // of the camera above it, signed as the normal points
+    double foot_x_mm;  // of the perpendicular from the camera, on the pad
+    double foot_y_mm;
+    double grazing_mm; // rays that rise less towards it meet it too far away
 };
 
 // Fails when the centre is outside of what the camera can see.
@@ -45,6 +49,9 @@ int pad_plane_of(const struct pad_view *view, const struct camera *camera, struc
 void pad_plane_project(const struct pad_plane *plane, const struct camera *camera, double x_mm, double y_mm,
                        double *x_px, double *y_px);
 
+// Point of the pad in a direction, a unit vector. Fails when that leads past the plane.
+int pad_plane_meet(const struct pad_plane *plane, const double direction[3], double *x_mm, double *y_mm);
+
 // Point of the pad that is seen at a pixel. Fails when the pixel looks past the plane.
 int pad_plane_unproject(const struct pad_plane *plane, const struct camera *camera, double x_px, double y_px,
                         double *x_mm, double *y_mm);
@@ -52,12 +59,20 @@ int pad_plane_unproject(const struct pad_plane *plane, const struct camera *came
 // Cosine of the angle between the plane's normal and the ray to the pad's centre.
 double pad_plane_facing(const struct pad_plane *plane);
 
-// Moments of the image of the shapes in `kinds`, taken as one. `clipped`: only
-// what lies inside the frame, on a finer grid; else the whole, as if the frame
-// had no border. The invariant is not computed.
+// Which points of the print stand for all of it.
+enum pad_sampling {
+    PAD_WHOLE,   // as if the frame had no border
+    PAD_CLIPPED, // only what lies inside the frame, on a grid as fine as its border needs
+    PAD_ROUGH    // the same, but for differences between views that are hardly apart
+};
+
+// Moments of the image of the shapes in `kinds`, taken as one. The invariant is not computed.
 // Returns the share of the shapes' print that is inside the frame; 0 leaves `seen` undefined.
-double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds, bool clipped,
-                         struct shape *seen);
+double pad_plane_moments(const struct pad_plane *plane, const struct camera *camera, unsigned kinds,
+                         enum pad_sampling sampling, struct shape *seen);
+
+// What that costs: see work.h.
+int pad_plane_work(unsigned kinds, enum pad_sampling sampling);
 
 // Area of the shapes' print.
 double pad_area_mm2(unsigned kinds);

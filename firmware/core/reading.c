@@ -106,7 +106,8 @@ static double expected_of(const struct detect_context *context, const struct pad
 {
     const struct camera *camera = context->camera;
 
-    if (!(pad_plane_moments(plane, camera, kind, false, expected) > 0.0)) {
+    context->work->done += pad_plane_work(kind, PAD_WHOLE);
+    if (!(pad_plane_moments(plane, camera, kind, PAD_WHOLE, expected) > 0.0)) {
         return 0.0;
     }
     // Roughly how far it reaches: only near the border is the finer grid worth its time.
@@ -114,7 +115,11 @@ static double expected_of(const struct detect_context *context, const struct pad
     const bool inside = expected->x_px >= reach && expected->y_px >= reach &&
                         expected->x_px <= camera->width_px - 1.0 - reach &&
                         expected->y_px <= camera->height_px - 1.0 - reach;
-    return inside ? 1.0 : pad_plane_moments(plane, camera, kind, true, expected);
+    if (inside) {
+        return 1.0;
+    }
+    context->work->done += pad_plane_work(kind, PAD_CLIPPED);
+    return pad_plane_moments(plane, camera, kind, PAD_CLIPPED, expected);
 }
 
 // The object that is nearest to what the view expects of one of the inner shapes.
@@ -139,13 +144,16 @@ static void match(const struct detect_context *context, const struct pad_plane *
     const double area_px = at_least(expected.area_px + edge_px * pad_edges_px(kind, &expected, inside), AREA_MIN_PX);
     const double ratio = kind == PAD_SMALL_RING ? MATCH_SMALL_RING_RATIO : MATCH_AREA_RATIO;
     const double reachable = MATCH_DISTANCE_PX + MATCH_DISTANCE_SIZE * sqrt(expected.area_px);
-    for (int i = 0; i < context->scratch->count; i++) {
-        const struct candidate *candidate = &context->scratch->candidates[i];
+    struct grid_near near;
+    grid_near(context->grid, expected.x_px, expected.y_px, reachable * reachable, &near);
+    context->work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
+    for (int i = 0; i < near.count; i++) {
+        const struct candidate *candidate = &context->scratch->candidates[near.list[i]];
         const struct shape *shape = &candidate->shape;
         const double x = shape->x_px - expected.x_px;
         const double y = shape->y_px - expected.y_px;
         const double squared = x * x + y * y;
-        if (squared > reachable * reachable || shape->area_px > ratio * area_px || shape->area_px * ratio < area_px) {
+        if (shape->area_px > ratio * area_px || shape->area_px * ratio < area_px) {
             continue;
         }
         if (nearest == NULL || squared < least) {
@@ -160,9 +168,27 @@ static void match(const struct detect_context *context, const struct pad_plane *
     }
 }
 
-// Mean square distance of a shape's print from the pad's centre, mm^2; negative if it looks past the plane.
-static double square_radius(const struct detect_context *context, const struct pad_plane *plane,
-                            const struct shape *shape)
+// Where a candidate is seen; NULL outside of what the camera can see. Asked for again and again in a frame.
+static const double *direction_of(const struct detect_context *context, struct candidate *candidate)
+{
+    if (candidate->sight == SIGHT_UNKNOWN) {
+        const struct shape *shape = &candidate->shape;
+        const bool seen = camera_direction(context->camera, shape->x_px, shape->y_px, candidate->direction) == 0;
+        candidate->sight = seen ? SIGHT_KNOWN : SIGHT_NONE;
+    }
+    return candidate->sight == SIGHT_KNOWN ? candidate->direction : NULL;
+}
+
+// What a pixel is in mm of the pad, near one place of the image: a covariance there becomes a mean square distance.
+struct pixel_mm {
+    double xx;
+    double xy;
+    double yy;
+};
+
+// Fails where a pixel there looks past the plane.
+static bool pixel_mm_at(const struct detect_context *context, const struct pad_plane *plane, const struct shape *place,
+                        struct pixel_mm *pixel)
 {
     double x;
     double y;
@@ -171,16 +197,32 @@ static double square_radius(const struct detect_context *context, const struct p
     double below_x;
     double below_y;
 
-    if (pad_plane_unproject(plane, context->camera, shape->x_px, shape->y_px, &x, &y) != 0 ||
-        pad_plane_unproject(plane, context->camera, shape->x_px + 1.0, shape->y_px, &right_x, &right_y) != 0 ||
-        pad_plane_unproject(plane, context->camera, shape->x_px, shape->y_px + 1.0, &below_x, &below_y) != 0) {
+    context->work->done += 3 * WORK_PIECE;
+    if (pad_plane_unproject(plane, context->camera, place->x_px, place->y_px, &x, &y) != 0 ||
+        pad_plane_unproject(plane, context->camera, place->x_px + 1.0, place->y_px, &right_x, &right_y) != 0 ||
+        pad_plane_unproject(plane, context->camera, place->x_px, place->y_px + 1.0, &below_x, &below_y) != 0) {
+        return false;
+    }
+    pixel->xx = (right_x - x) * (right_x - x) + (right_y - y) * (right_y - y);
+    pixel->yy = (below_x - x) * (below_x - x) + (below_y - y) * (below_y - y);
+    pixel->xy = (right_x - x) * (below_x - x) + (right_y - y) * (below_y - y);
+    return true;
+}
+
+// Mean square distance of a shape's print from the pad's centre, mm^2; negative if it looks past the plane.
+static double square_radius(const struct detect_context *context, const struct pad_plane *plane,
+                            const struct pixel_mm *pixel, struct candidate *candidate)
+{
+    const struct shape *shape = &candidate->shape;
+    const double *direction = direction_of(context, candidate);
+    double x;
+    double y;
+
+    context->work->done += WORK_PIECE;
+    if (direction == NULL || pad_plane_meet(plane, direction, &x, &y) != 0) {
         return -1.0;
     }
-    const double xx = (right_x - x) * (right_x - x) + (right_y - y) * (right_y - y);
-    const double yy = (below_x - x) * (below_x - x) + (below_y - y) * (below_y - y);
-    const double xy = (right_x - x) * (below_x - x) + (right_y - y) * (below_y - y);
-
-    return x * x + y * y + xx * shape->cov_xx + 2.0 * xy * shape->cov_xy + yy * shape->cov_yy;
+    return x * x + y * y + pixel->xx * shape->cov_xx + 2.0 * pixel->xy * shape->cov_xy + pixel->yy * shape->cov_yy;
 }
 
 static bool is_sighted(const struct reading *reading, const struct shape *shape)
@@ -219,14 +261,31 @@ static double thin_share(const struct shape *ring, double mean_width_px)
     return (double)thin / THIN_PLACES;
 }
 
-static bool between(double square, double least, double greatest)
-{
-    return square > least * least && square < greatest * greatest;
-}
+// Mean square distances from the pad's centre, mm^2.
+struct annuli {
+    double piece_least; // of the ring
+    double piece_greatest;
+    double clutter_least; // of what does not belong
+    double clutter_greatest;
+};
+
+static const struct annuli guessed = {
+    .piece_least = PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM,
+    .piece_greatest = PIECE_RADIUS_MAX_MM * PIECE_RADIUS_MAX_MM,
+    .clutter_least = SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM,
+    .clutter_greatest = PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM,
+};
+static const struct annuli known = {
+    .piece_least = FITTED_PIECE_RADIUS_MIN_MM * FITTED_PIECE_RADIUS_MIN_MM,
+    .piece_greatest = FITTED_PIECE_RADIUS_MAX_MM * FITTED_PIECE_RADIUS_MAX_MM,
+    .clutter_least = SMALL_RING_OUTER_RADIUS_MM * SMALL_RING_OUTER_RADIUS_MM,
+    .clutter_greatest = MARGIN_MM * MARGIN_MM,
+};
 
 static void match_ring(const struct detect_context *context, const struct pad_plane *plane, double edge_px,
                        bool fitted, struct reading *reading)
 {
+    const struct annuli *annuli = fitted ? &known : &guessed;
     struct shape expected;
     struct shape_sum ring = {.area_px = 0.0};
     int pieces = 0;
@@ -245,23 +304,26 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     reading->ring_thin = thin_share(&expected, reading->ring_width_px);
     // The disc, in any direction, from wherever the border has moved the centroid to.
     const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / at_least(inside, 0.3);
-    for (int i = 0; i < context->scratch->count; i++) {
-        const struct candidate *candidate = &context->scratch->candidates[i];
+    // One part of clutter weighs as much as the rectangle would.
+    const double rectangle_px = area_px / inside * pad_area_mm2(PAD_RECTANGLE) / pad_area_mm2(PAD_RING);
+    struct pixel_mm pixel;
+    struct grid_near near;
+    if (!pixel_mm_at(context, plane, &expected, &pixel)) {
+        return;
+    }
+    grid_near(context->grid, expected.x_px, expected.y_px, reach * reach, &near);
+    context->work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
+    for (int i = 0; i < near.count; i++) {
+        struct candidate *candidate = &context->scratch->candidates[near.list[i]];
         const struct shape *shape = &candidate->shape;
-        const double x = shape->x_px - expected.x_px;
-        const double y = shape->y_px - expected.y_px;
-        if (shape->area_px > RING_SHARE_MAX * area_px || x * x + y * y > reach * reach) {
+        if (shape->area_px > RING_SHARE_MAX * area_px) {
             continue;
         }
-        const double square = square_radius(context, plane, shape);
-        const bool piece = between(square, fitted ? FITTED_PIECE_RADIUS_MIN_MM : PIECE_RADIUS_MIN_MM,
-                                   fitted ? FITTED_PIECE_RADIUS_MAX_MM : PIECE_RADIUS_MAX_MM);
-        if (!piece && between(square, SMALL_RING_OUTER_RADIUS_MM, fitted ? MARGIN_MM : PIECE_RADIUS_MIN_MM) &&
-            !is_sighted(reading, shape)) {
-            reading->clutter +=
-                shape->area_px / (area_px / inside) * pad_area_mm2(PAD_RING) / pad_area_mm2(PAD_RECTANGLE);
-        }
-        if (!piece) {
+        const double square = square_radius(context, plane, &pixel, candidate);
+        if (!(square > annuli->piece_least) || !(square < annuli->piece_greatest)) {
+            if (square > annuli->clutter_least && square < annuli->clutter_greatest && !is_sighted(reading, shape)) {
+                reading->clutter += shape->area_px / rectangle_px;
+            }
             continue;
         }
         shape_sum_add(&ring, shape);
@@ -287,13 +349,24 @@ static void match_fused(const struct detect_context *context, const struct pad_p
     struct shape_sum inner = {.area_px = 0.0};
     struct shape expected;
 
-    if (!(pad_plane_moments(plane, context->camera, PAD_INNER, false, &expected) > 0.0)) {
+    struct shape ring;
+
+    context->work->done += pad_plane_work(PAD_INNER | PAD_RING, PAD_WHOLE);
+    if (!(pad_plane_moments(plane, context->camera, PAD_INNER, PAD_WHOLE, &expected) > 0.0) ||
+        !(pad_plane_moments(plane, context->camera, PAD_RING, PAD_WHOLE, &ring) > 0.0)) {
         return;
     }
     inner.origin = expected;
-    for (int i = 0; i < context->scratch->count; i++) {
-        const struct candidate *candidate = &context->scratch->candidates[i];
-        const double square = square_radius(context, plane, &candidate->shape);
+    struct pixel_mm pixel;
+    struct grid_near near;
+    if (!pixel_mm_at(context, plane, &ring, &pixel)) {
+        return;
+    }
+    grid_near(context->grid, ring.x_px, ring.y_px, RING_REACH * RING_REACH * (ring.cov_xx + ring.cov_yy), &near);
+    context->work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
+    for (int i = 0; i < near.count; i++) {
+        struct candidate *candidate = &context->scratch->candidates[near.list[i]];
+        const double square = square_radius(context, plane, &pixel, candidate);
         if (square >= 0.0 && square < PIECE_RADIUS_MIN_MM * PIECE_RADIUS_MIN_MM && !candidate->clipped) {
             shape_sum_add(&inner, &candidate->shape);
         }

@@ -5,27 +5,20 @@
 #define TOUCHDOWN_READING_H
 
 #include "detect.h"
+#include "grid.h"
 
 // Of the ring's print: less is no witness, more is something else, and this much is the whole ring.
 #define RING_SHARE_MIN 0.3
 #define RING_SHARE_MAX 1.5
 #define RING_SHARE_WHOLE 0.85
 
-// How far the search of one frame has come.
-struct search {
-    int slopes_taken; // by its fits, which cost the most
-    int turn;         // hypotheses so far
-    int skip;         // of them, those that had their turn in the frame before
-    bool went_on; // one that had no turn in the frame before was tried
-    bool spent;   // its time is over: the hypothesis of this turn and the rest wait for the next frame
-};
-
 struct detect_context {
-    const struct detect_scratch *scratch;
+    struct detect_scratch *scratch;
+    const struct grid *grid;
     const struct camera *camera;
     const struct detect_hint *hint;
     uint32_t options;
-    struct search *search;
+    struct work *work;
     bool crowded; // so many objects that some lie as a pad's would
 };
 

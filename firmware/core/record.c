@@ -8,13 +8,23 @@
 #define WORD_BYTES sizeof(uint32_t)
 #define HEADER_WORDS (sizeof(struct landing_result_header) / WORD_BYTES)
 #define OBJECT_WORDS (sizeof(struct landing_object) / WORD_BYTES)
+#define BLOCK_WORDS 4U
+_Static_assert(HEADER_WORDS % BLOCK_WORDS == 0U && OBJECT_WORDS % BLOCK_WORDS == 0U, "records are copied by blocks");
 #define FRAME_NUMBER_WORD (offsetof(struct landing_result_header, frame_number) / WORD_BYTES)
 
 static void copy_words(unsigned char *to, const volatile uint32_t *from, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t word = from[i];
-        memcpy(to + i * WORD_BYTES, &word, WORD_BYTES);
+    // Four at a time: a third of the loop is counting otherwise.
+    for (size_t i = 0; i < count; i += BLOCK_WORDS) {
+        unsigned char *const block = to + i * WORD_BYTES;
+        const uint32_t a = from[i];
+        const uint32_t b = from[i + 1U];
+        const uint32_t c = from[i + 2U];
+        const uint32_t d = from[i + 3U];
+        memcpy(block, &a, WORD_BYTES);
+        memcpy(block + WORD_BYTES, &b, WORD_BYTES);
+        memcpy(block + 2U * WORD_BYTES, &c, WORD_BYTES);
+        memcpy(block + 3U * WORD_BYTES, &d, WORD_BYTES);
     }
 }
 

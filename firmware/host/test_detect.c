@@ -14,7 +14,7 @@ static struct pad_estimate pad;
 
 static bool find(uint32_t options)
 {
-    return detect_pad(&record, &camera_default, &detect_no_hint, options, &scratch, &pad) == 0;
+    return scene_search(&record, &detect_no_hint, options, &scratch, &pad);
 }
 
 static bool find_pad(const struct scene *scene)
@@ -122,7 +122,7 @@ static void test_perspective(void)
     test_case("a hint of the tilt");
     const struct pad_view truth = scene_view(&scene);
     const struct detect_hint hint = {.tilt = {truth.value[PAD_TILT_X], truth.value[PAD_TILT_Y], 0.02}};
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
+    CHECK(scene_search(&record, &hint, DETECT_ALL, &scratch, &pad));
     NEAR(pad.view.value[PAD_TILT_X], hint.tilt.x, 0.01);
     NEAR(pad.view.value[PAD_TILT_Y], hint.tilt.y, 0.01);
 }
@@ -230,28 +230,28 @@ static void test_far(void)
     scene_paint(&record, &scene, scene_rectangle);
     CHECK(!find(DETECT_ALL));
     hint.height_m = 2.45;
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) != 0); // no attitude
+    CHECK(!scene_search(&record, &hint, DETECT_ALL, &scratch, &pad)); // no attitude
     hint.tilt.sigma = 0.025;
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
+    CHECK(scene_search(&record, &hint, DETECT_ALL, &scratch, &pad));
     check_centre(&scene, 0.2);
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL & ~DETECT_FAR, &scratch, &pad) != 0);
+    CHECK(!scene_search(&record, &hint, DETECT_ALL & ~DETECT_FAR, &scratch, &pad));
     hint.height_m = 1.7; // another size of the same shapes
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) != 0);
+    CHECK(!scene_search(&record, &hint, DETECT_ALL, &scratch, &pad));
     test_case("a LiDAR that contradicts a whole pad raises the doubt");
     hint = detect_no_hint;
     scene_clear(&record);
     scene_paint_pad(&record, &scene);
     hint.height_m = 2.4;
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
+    CHECK(scene_search(&record, &hint, DETECT_ALL, &scratch, &pad));
     const double doubt = pad.doubt;
     hint.height_m = 1.5;
-    CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
+    CHECK(scene_search(&record, &hint, DETECT_ALL, &scratch, &pad));
     CHECK(pad.doubt > doubt + 0.5);
 }
 
 static bool find_with(const struct detect_hint *hint)
 {
-    return detect_pad(&record, &camera_default, hint, DETECT_ALL, &scratch, &pad) == 0;
+    return scene_search(&record, hint, DETECT_ALL, &scratch, &pad);
 }
 
 // Other factors than the usual one show much that is no pad, and a full record holds the least of it.
@@ -369,7 +369,7 @@ static void test_last_view(void)
     const struct scene before = {.height_m = 1.0, .right_m = 0.1, .heading_deg = 30.0};
     const struct scene now = {.height_m = 0.99, .right_m = 0.115, .forward_m = 0.01, .heading_deg = 31.5};
     const struct scene elsewhere = {.height_m = 1.6, .right_m = -0.3, .forward_m = 0.2, .heading_deg = 200.0};
-    const struct pad_view moved = scene_view(&before);
+    struct pad_view moved = scene_view(&before);
     const struct pad_view wrong = scene_view(&elsewhere);
     struct detect_hint hint = detect_no_hint;
 
@@ -406,7 +406,12 @@ static void test_last_view(void)
     CHECK(pad.search_doubt < hint.last_doubt && pad.search_doubt > 0.95 * hint.last_doubt);
     NEAR(pad.x_px, searched.x_px, 0.05);
     hint.last_doubt = 0.8 * doubt;
-    CHECK(find_with(&hint));
+    for (int frames = 0; frames == 0 || (pad.search_doubt == 0.0 && frames < 20); frames++) {
+        CHECK(detect_pad(&record, &camera_default, &hint, DETECT_ALL, &scratch, &pad) == 0);
+        NEAR(pad.x_px, searched.x_px, 0.05);
+        moved = pad.view;
+        hint.last_doubt = pad.search_doubt;
+    }
     CHECK(pad.search_doubt == pad.doubt);
 }
 

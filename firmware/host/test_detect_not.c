@@ -14,7 +14,7 @@ static struct pad_estimate pad;
 
 static bool found(void)
 {
-    return detect_pad(&record, &camera_default, &detect_no_hint, DETECT_ALL, &scratch, &pad) == 0;
+    return scene_search(&record, &detect_no_hint, DETECT_ALL, &scratch, &pad);
 }
 
 static bool has(unsigned kinds)

@@ -10,7 +10,7 @@ static struct factor_search search;
 static void miss(int frames)
 {
     for (int i = 0; i < frames; i++) {
-        factor_search_update(&search, false, factor_search_factor(&search));
+        factor_search_update(&search, false, true, factor_search_factor(&search));
     }
 }
 
@@ -40,7 +40,7 @@ static void test_stays(void)
     search = (struct factor_search){0};
     miss(18);
     for (int i = 0; i < 100; i++) {
-        factor_search_update(&search, true, 160U);
+        factor_search_update(&search, true, true, 160U);
         miss(5);
     }
     CHECK(factor_search_factor(&search) == 160U);
@@ -54,13 +54,25 @@ static void test_factor_before(void)
     search = (struct factor_search){0};
     miss(18);
     for (int i = 0; i < 100; i++) {
-        factor_search_update(&search, false, USUAL);
+        factor_search_update(&search, false, true, USUAL);
     }
     CHECK(factor_search_factor(&search) == 160U);
     miss(5);
-    factor_search_update(&search, true, USUAL);
+    factor_search_update(&search, true, true, USUAL);
     miss(1);
     CHECK(factor_search_factor(&search) == 208U);
+}
+
+static void test_waits_for_the_search(void)
+{
+    test_case("a search that goes on is not cut off");
+    search = (struct factor_search){0};
+    for (int i = 0; i < 40; i++) {
+        factor_search_update(&search, false, false, USUAL);
+    }
+    CHECK(factor_search_factor(&search) == USUAL);
+    miss(1);
+    CHECK(factor_search_factor(&search) == 160U);
 }
 
 void test_factor_search(void)
@@ -68,4 +80,5 @@ void test_factor_search(void)
     test_walks();
     test_stays();
     test_factor_before();
+    test_waits_for_the_search();
 }

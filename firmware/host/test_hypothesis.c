@@ -9,6 +9,7 @@
 
 static struct landing_record record;
 static struct detect_scratch scratch;
+static struct grid grid;
 static struct hypotheses found;
 
 // The candidates of the record, as the detection sorts them.
@@ -20,10 +21,36 @@ static void collect(void)
     found.count = 0;
 }
 
+static struct hypothesis_source source_of(double height_m, uint32_t options)
+{
+    grid_sort(&scratch, &camera_default, &grid);
+    return (struct hypothesis_source){
+        .grid = &grid, .camera = &camera_default, .height_m = height_m, .options = options};
+}
+
 static void from_pairs(double height_m, uint32_t options)
 {
+    const struct hypothesis_source source = source_of(height_m, options);
+    struct work work = {.done = 0};
+
     found.count = 0;
-    hypotheses_from_pairs(&scratch, &camera_default, height_m, options, &found);
+    CHECK(hypotheses_from_pairs(&source, 0, &work, &found) == 0);
+}
+
+static void from_small_rings(void)
+{
+    const struct hypothesis_source source = source_of(0.0, DETECT_ALL);
+    struct work work = {.done = 0};
+
+    CHECK(hypotheses_from_small_rings(&source, 0, &work, &found) == 0);
+}
+
+static void from_rings(void)
+{
+    const struct hypothesis_source source = source_of(0.0, DETECT_ALL);
+    struct work work = {.done = 0};
+
+    CHECK(hypotheses_from_rings(&source, 0, &work, &found) == 0);
 }
 
 static bool is_near(const struct hypothesis *hypothesis, const struct scene *scene)
@@ -178,7 +205,7 @@ static void test_small_rings(void)
         scene_clear(&record);
         scene_paint_pad(&record, &scene);
         collect();
-        hypotheses_from_small_rings(&scratch, &camera_default, &found);
+        from_small_rings();
         CHECK(any_near(&scene));
         check_sorted();
     }
@@ -187,7 +214,7 @@ static void test_small_rings(void)
     scene_clear(&record);
     scene_paint_pad(&record, &far);
     collect();
-    hypotheses_from_small_rings(&scratch, &camera_default, &found);
+    from_small_rings();
     CHECK(found.count == 0);
 }
 
@@ -206,7 +233,7 @@ static void test_rings(void)
         scene_paint(&record, &scene, scene_ring);
         scene_paint(&record, &scene, inner_as_one);
         collect();
-        hypotheses_from_rings(&scratch, &camera_default, &found);
+        from_rings();
         CHECK(found.count == 2); // either way up
         CHECK(is_near(&found.list[0], &scene));
         CHECK(found.count == 2 && found.list[0].fused && found.list[1].fused);
@@ -217,7 +244,7 @@ static void test_rings(void)
     scene_clear(&record);
     scene_paint(&record, &scene, scene_ring);
     collect();
-    hypotheses_from_rings(&scratch, &camera_default, &found);
+    from_rings();
     CHECK(found.count == 0);
 }
 

@@ -10,9 +10,17 @@
 
 #define HEIGHT_MM 300.0
 
-static int slopes;
-
 static const struct tilt_hint no_hint = {.x = 0.0, .y = 0.0, .sigma = 100.0};
+
+// A fit that has all the time it needs.
+static int fit_in_time(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
+                       struct pad_view *view, double *misfit, double *worst)
+{
+    struct work work = {.done = -100 * WORK_A_FRAME};
+    int steps = 0;
+
+    return pad_fit(evidence, camera, tilt, view, misfit, worst, &steps, &work);
+}
 
 static struct pad_evidence evidence_of(const struct pad_view *view, const struct camera *camera, bool clipped)
 {
@@ -71,9 +79,7 @@ static void test_recovers(void)
             view.value[PAD_TILT_X] = 0.0;
             view.value[PAD_TILT_Y] = 0.0;
             CHECK(evidence.count == 4);
-            slopes = 3;
-            CHECK(pad_fit(&evidence, camera, &no_hint, &view, &misfit, &worst, &slopes) == 0);
-            CHECK(slopes > 3 && slopes <= 3 + PAD_FIT_STEPS);
+            CHECK(fit_in_time(&evidence, camera, &no_hint, &view, &misfit, &worst) == 0);
             check_same(&view, &truth, 1.0);
             NEAR(misfit, 0.0, 0.01);
             NEAR(worst, 0.0, 0.2);
@@ -92,7 +98,7 @@ static void test_cut_by_the_border(void)
 
     test_case("cut by the border");
     CHECK(evidence.count >= 3);
-    CHECK(pad_fit(&evidence, &camera_default, &hint, &view, &misfit, &worst, &slopes) == 0);
+    CHECK(fit_in_time(&evidence, &camera_default, &hint, &view, &misfit, &worst) == 0);
     check_same(&view, &truth, 5.0);
 }
 
@@ -141,7 +147,7 @@ static void test_moved_edges(void)
         evidence.sightings[2] = evidence.sightings[3];
         evidence.count = 3;
         scene_count(&plane, &camera_default, grown_ring, 2, false, &evidence.sightings[2].seen);
-        CHECK(pad_fit(&evidence, &camera_default, &level, &view, &misfit, &worst, &slopes) == 0);
+        CHECK(fit_in_time(&evidence, &camera_default, &level, &view, &misfit, &worst) == 0);
         NEAR(view.value[PAD_EDGE_PX], edges_px[i], 0.15);
         NEAR(view.value[PAD_X_PX], 640.0, 0.08);
         NEAR(view.value[PAD_Y_PX], 360.0, 0.08);
@@ -160,7 +166,7 @@ static void test_hint_holds(void)
     double worst;
 
     test_case("a sure hint of the tilt is kept, and the misfit tells");
-    CHECK(pad_fit(&evidence, &camera_default, &sure, &view, &misfit, &worst, &slopes) == 0);
+    CHECK(fit_in_time(&evidence, &camera_default, &sure, &view, &misfit, &worst) == 0);
     NEAR(view.value[PAD_TILT_X], 0.0, 0.01);
     CHECK(misfit > 0.05);
     test_case("shapes in each other's place do not fit");
@@ -168,7 +174,7 @@ static void test_hint_holds(void)
     evidence.sightings[0].seen = evidence.sightings[1].seen;
     evidence.sightings[1].seen = square;
     view = truth;
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) != 0 || (misfit > 10.0 && worst > 5.0));
+    CHECK(fit_in_time(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) != 0 || (misfit > 10.0 && worst > 5.0));
 }
 
 static void test_lost(void)
@@ -181,25 +187,65 @@ static void test_lost(void)
     double worst;
 
     test_case("lost");
-    CHECK(pad_fit(&nothing, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
+    CHECK(fit_in_time(&nothing, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
     view.value[PAD_X_PX] = 640.0 + 930.0; // where the camera cannot see
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
+    CHECK(fit_in_time(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
     view.value[PAD_X_PX] = -400.0; // nothing of it inside the frame
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
+    CHECK(fit_in_time(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
     view = truth;
     view.value[PAD_LOG_DISTANCE_MM] = log(1e6); // smaller than a pixel
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
+    CHECK(fit_in_time(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
     for (int i = 0; i < PAD_EDGE_PX; i++) {
         view = truth;
         view.value[i] = (double)NAN;
-        CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &slopes) == PAD_FIT_E_LOST);
+        CHECK(fit_in_time(&evidence, &camera_default, &no_hint, &view, &misfit, &worst) == PAD_FIT_E_LOST);
     }
+}
+
+static void test_in_parts(void)
+{
+    const struct pad_view truth = {{640.0, 360.0, log(HEIGHT_MM), 0.4, 0.3, -0.2, 0.0}};
+    const struct pad_evidence evidence = evidence_of(&truth, &camera_default, false);
+    struct pad_view view = moved(&truth, 1.0);
+    const struct pad_view start = view;
+    double misfit;
+    double worst;
+    double before = HUGE_VAL;
+    int calls = 0;
+    int steps = 0;
+    int result = PAD_FIT_UNFINISHED;
+
+    test_case("without time nothing is fitted");
+    struct work over = {.done = WORK_A_FRAME};
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &steps, &over) == PAD_FIT_UNFINISHED);
+    for (int i = 0; i < PAD_PARAMETERS; i++) {
+        NEAR(view.value[i], start.value[i], 0.0);
+    }
+    test_case("a step a call comes to the same end");
+    while (result == PAD_FIT_UNFINISHED && calls < PAD_FIT_STEPS) {
+        struct work work = {.done = WORK_A_FRAME, .granted = true};
+        result = pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &steps, &work);
+        CHECK(misfit < before);
+        CHECK(work.done > WORK_A_FRAME && work.done < 2 * WORK_A_FRAME);
+        before = misfit;
+        calls++;
+    }
+    CHECK(result == 0);
+    CHECK(calls > 2);
+    CHECK(steps > 1 && steps < PAD_FIT_STEPS);
+    check_same(&view, &truth, 1.0);
+    test_case("after so many steps it ends where it is");
+    steps = PAD_FIT_STEPS;
+    view = start;
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &steps, &(struct work){.done = 0}) == 0);
+    NEAR(view.value[PAD_X_PX], start.value[PAD_X_PX], 0.0);
 }
 
 void test_pad_fit(void)
 {
     test_recovers();
     test_cut_by_the_border();
+    test_in_parts();
     test_moved_edges();
     test_hint_holds();
     test_lost();

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "pad_geometry.h"
+#include "test.h"
 
 #define RADIANS_PER_DEGREE 0.017453292519943295
 #define WIDTH 1280
@@ -14,6 +15,8 @@
 
 // Blur and the opening of the mask cut corners, whatever the shape's size: 19 px of a box in all.
 #define CORNER_PX 3.1
+
+#define FRAMES_MAX 60 // that a search takes
 
 static double corner_mm; // sides of the triangle that each corner loses
 
@@ -278,4 +281,17 @@ double scene_count(const struct pad_plane *plane, const struct camera *camera, s
                            .cov_xy = sums[4] / sums[0] - x * y,
                            .cov_yy = sums[5] / sums[0] - y * y};
     return whole;
+}
+
+bool scene_search(const struct landing_record *record, const struct detect_hint *hint, uint32_t options,
+                  struct detect_scratch *scratch, struct pad_estimate *pad)
+{
+    int result = DETECT_E_GOES_ON;
+
+    memset(scratch, 0, sizeof *scratch);
+    for (int frame = 0; frame < FRAMES_MAX && result == DETECT_E_GOES_ON; frame++) {
+        result = detect_pad(record, &camera_default, hint, options, scratch, pad);
+    }
+    CHECK(result != DETECT_E_GOES_ON);
+    return result == 0;
 }

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "camera.h"
+#include "detect.h"
 #include "landing_regs.h"
 #include "pad_view.h"
 #include "shapes.h"
@@ -54,5 +55,9 @@ struct pad_view scene_view(const struct scene *scene);
 // Returns the area without the frame's border.
 double scene_count(const struct pad_plane *plane, const struct camera *camera, scene_shape shape, int fineness,
                    bool clipped, struct shape *seen);
+
+// Shows the record to a detection that begins anew, until its search has come to an end. True when it found the pad.
+bool scene_search(const struct landing_record *record, const struct detect_hint *hint, uint32_t options,
+                  struct detect_scratch *scratch, struct pad_estimate *pad);
 
 #endif
