@@ -49,7 +49,7 @@ static int fit(const struct detect_context *context, bool whole, struct hypothes
             return 0;
         }
         const int result = pad_fit(&reading->evidence, context->camera, &context->hint->tilt, &hypothesis->view, misfit,
-                                   worst, &hypothesis->steps, context->work);
+                                   worst, &hypothesis->progress, context->work);
         if (result == PAD_FIT_E_LOST) {
             return DETECT_E_NO_PAD;
         }
@@ -60,7 +60,7 @@ static int fit(const struct detect_context *context, bool whole, struct hypothes
             return 0;
         }
         hypothesis->fitted = true;
-        hypothesis->steps = 0;
+        hypothesis->progress = (struct pad_fit_progress){.steps = 0};
         before = *reading;
         if (whole && work_is_over(context->work)) {
             return DETECT_E_GOES_ON;

@@ -19,7 +19,7 @@
 #define DOUBT_SAME 1.2
 #define DOUBT_FADES 0.98
 // A fit that has not ended after so many frames of its share is given up.
-#define FIT_FRAMES_MAX 8
+#define FIT_FRAMES_MAX 16
 // So long the places of a list are good enough for a fit, though the camera moves.
 #define LIST_FRAMES_MAX 3
 // So many lists of a kind at most, each from a few candidates before the one with which the last has ended.

@@ -37,7 +37,7 @@ struct hypothesis {
     bool fused;           // the inner shapes have run together
     double error;         // of its list, the least is tried first
     bool fitted;          // all shapes are in reach; else the view is a guess still
-    int steps;            // that the fit has taken
+    struct pad_fit_progress progress;
     bool mirrored;        // it came from its mirror image, which had its turn
 };
 

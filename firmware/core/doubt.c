@@ -34,6 +34,14 @@
 #define LACKING_DOUBT_CROWDED_MAX 1.8   // one that wants a shape: all else must fit well
 #define CUT_DOUBT_MAX 0.5               // the border cuts the square, the rectangle or both
 #define CUT_DOUBT_CLUTTER_MAX 0.2       // the same under other thresholds or in a crowd: the ring in one piece, all fits
+// The same of a pair that all else confirms: attitude and LiDAR, a fit as good as noise allows, nothing that does not
+// belong, and pieces that are arcs of the ring. In 3700 frames without a pad nothing came near.
+#define CONFIRMED_DOUBT_MAX 1.9
+#define CONFIRMED_MISFIT_MAX 0.95
+#define CONFIRMED_CLUTTER_MAX 0.05
+#define CONFIRMED_ARCS_MIN 0.9 // of what was seen of the ring
+#define CONFIRMED_TOLERANCE 0.05
+#define CONFIRMED_TOLERANCE_M 0.04
 #define UNCONFIRMED_TILT 0.4
 #define UNCONFIRMED_DOUBT_MAX 1.0
 // With only one of square and rectangle there is little to contradict a view.
@@ -44,6 +52,7 @@
 // right size, lie as the autopilot's attitude says, and be seen with the usual
 // factor: other factors, tried for long enough, show two such specks in any grass.
 #define FAR_DOUBT_MAX 0.42
+#define FAR_ARCS_MIN 0.12 // so much of the ring is enough where all else confirms the pair, whatever the factor
 #define ATTITUDE_SIGMA 0.1
 #define FAR_RING_WIDTH_PX 6.5
 #define FAR_FACING_MIN 0.7 // 45 degrees: farther off the axis too little of a square is left
@@ -79,6 +88,17 @@ static bool far_enough(const struct detect_context *context, const struct readin
            context->hint->tilt.sigma <= ATTITUDE_SIGMA && context->hint->height_m > 0.0 &&
            reading->ring_width_px <= FAR_RING_WIDTH_PX && pad_plane_facing(plane) >= FAR_FACING_MIN &&
            agrees_with_lidar(context, plane, CLOSE_TOLERANCE, CLOSE_TOLERANCE_M);
+}
+
+// True where attitude, LiDAR and what was seen of the ring all say the same as the pair.
+static bool is_confirmed(const struct detect_context *context, const struct reading *reading,
+                         const struct pad_plane *plane, double misfit)
+{
+    return reading_has_whole_pair(reading) && context->hint->tilt.sigma <= ATTITUDE_SIGMA &&
+           context->hint->height_m > 0.0 &&
+           agrees_with_lidar(context, plane, CONFIRMED_TOLERANCE, CONFIRMED_TOLERANCE_M) &&
+           misfit <= CONFIRMED_MISFIT_MAX && reading->clutter <= CONFIRMED_CLUTTER_MAX &&
+           reading->ring_arcs >= CONFIRMED_ARCS_MIN * reading->ring_share;
 }
 
 // How much doubt is allowed where the pair has no other witness than the ring.
@@ -147,11 +167,15 @@ double doubt_of(const struct detect_context *context, const struct reading *read
                    : -1.0;
     }
     if (pair && ring) {
-        return doubt + broken <= pieces_doubt_max(context, reading) ? doubt + broken : -1.0;
+        const double confirmed = is_confirmed(context, reading, &plane, misfit) ? CONFIRMED_DOUBT_MAX : 0.0;
+
+        return doubt + broken <= at_least(pieces_doubt_max(context, reading), confirmed) ? doubt + broken : -1.0;
     }
     if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
         return doubt + broken <= CLOSE_DOUBT_MAX ? doubt + broken : -1.0;
     }
-    return reading_has_whole_pair(reading) && far_enough(context, reading, &plane) && doubt <= FAR_DOUBT_MAX ? doubt
-                                                                                                              : -1.0;
+    const bool far = reading_has_whole_pair(reading) && far_enough(context, reading, &plane) && doubt <= FAR_DOUBT_MAX;
+    const bool traces = pair && reading->ring_width_px <= FAR_RING_WIDTH_PX && reading->ring_arcs >= FAR_ARCS_MIN &&
+                        is_confirmed(context, reading, &plane, misfit) && doubt <= CONFIRMED_MISFIT_MAX;
+    return far || traces ? doubt : -1.0;
 }

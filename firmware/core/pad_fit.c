@@ -380,14 +380,17 @@ static bool weigh(const struct pad_evidence *evidence, const struct camera *came
 
 // From where it starts to the nearest least cost, or as far as there is time.
 static int descend(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-                   struct guess *best, int *steps, struct work *work)
+                   struct guess *best, struct pad_fit_progress *progress, struct work *work)
 {
     struct slopes slopes;
     bool known = false; // the slopes, well enough for the next step
     bool here = false;  // they were taken at this view
-    double damping = 1e-4;
+    double *const damping = &progress->damping;
 
-    for (; *steps < PAD_FIT_STEPS; (*steps)++) {
+    if (progress->steps == 0) {
+        *damping = 1e-4;
+    }
+    for (; progress->steps < PAD_FIT_STEPS; progress->steps++) {
         double step[PAD_PARAMETERS];
         struct guess moved;
         if (!work_take(work, known ? work_of_small_step(evidence) : work_of_step(evidence))) {
@@ -397,7 +400,7 @@ static int descend(const struct pad_evidence *evidence, const struct camera *cam
             return PAD_FIT_E_LOST;
         }
         here = here || !known;
-        if (!step_of(&slopes, tilt, best, damping, step)) {
+        if (!step_of(&slopes, tilt, best, *damping, step)) {
             return PAD_FIT_E_LOST;
         }
         for (int k = 0; k < PAD_PARAMETERS; k++) {
@@ -405,21 +408,21 @@ static int descend(const struct pad_evidence *evidence, const struct camera *cam
         }
         const bool valid = weigh(evidence, camera, tilt, &moved);
         if (!valid || !(moved.cost < best->cost)) {
-            if ((valid && moved.cost < best->cost + GAIN_MIN) || is_hopeless(evidence, *steps, best->cost)) {
+            if ((valid && moved.cost < best->cost + GAIN_MIN) || is_hopeless(evidence, progress->steps, best->cost)) {
                 break;
             }
             // Slopes of the view before are taken anew first.
             known = here;
-            damping = here ? damping * 30.0 + 1e-3 : damping;
+            *damping = here ? *damping * 30.0 + 1e-3 : *damping;
             continue;
         }
         const double gain = best->cost - moved.cost;
         *best = moved;
-        damping /= 10.0;
+        *damping /= 10.0;
         known = is_small(step);
         here = false;
         if (fabs(step[PAD_X_PX]) + fabs(step[PAD_Y_PX]) < CONVERGED_PX || gain < GAIN_MIN ||
-            is_stuck(best, gain) || is_hopeless(evidence, *steps, best->cost)) {
+            is_stuck(best, gain) || is_hopeless(evidence, progress->steps, best->cost)) {
             break;
         }
     }
@@ -427,14 +430,15 @@ static int descend(const struct pad_evidence *evidence, const struct camera *cam
 }
 
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-            struct pad_view *view, double *misfit, double *worst, int *steps, struct work *work)
+            struct pad_view *view, double *misfit, double *worst, struct pad_fit_progress *progress,
+            struct work *work)
 {
     struct guess best;
 
     best.view = *view;
     work->done += work_of_view(evidence, false);
     const int result =
-        weigh(evidence, camera, tilt, &best) ? descend(evidence, camera, tilt, &best, steps, work) : PAD_FIT_E_LOST;
+        weigh(evidence, camera, tilt, &best) ? descend(evidence, camera, tilt, &best, progress, work) : PAD_FIT_E_LOST;
     if (result == PAD_FIT_E_LOST) {
         return result;
     }

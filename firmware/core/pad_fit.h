@@ -35,10 +35,17 @@ struct tilt_hint {
     double sigma;
 };
 
+// How far a fit has come. All zero is the beginning.
+struct pad_fit_progress {
+    int steps;
+    double damping; // of the next step
+};
+
 // Improves `view`, which has to be near. `misfit`: mean square of the residuals
 // in standard deviations for each degree of freedom; 1 is what noise alone gives.
-// `worst`: the greatest residual. `steps` grows with each step; of PAD_FIT_STEPS or more none is taken.
+// `worst`: the greatest residual. After PAD_FIT_STEPS steps it ends where it is.
 int pad_fit(const struct pad_evidence *evidence, const struct camera *camera, const struct tilt_hint *tilt,
-            struct pad_view *view, double *misfit, double *worst, int *steps, struct work *work);
+            struct pad_view *view, double *misfit, double *worst, struct pad_fit_progress *progress,
+            struct work *work);
 
 #endif

@@ -35,6 +35,8 @@
 #define CLEAN_RING_INVARIANT_MAX 3.1
 #define RING_REACH 1.7 // of its root mean square radius in the image
 #define THIN_WIDTH_PX 7.0
+// Variance of an arc of the ring across the line from its centre, to that along it: 2.6 for 20 degrees, 9 for 40.
+#define ARC_VARIANCES 2.0
 #define THIN_PLACES 8
 
 // How much doubt a view may leave: its misfit, and what is missing or does not belong.
@@ -261,6 +263,17 @@ static double thin_share(const struct shape *ring, double mean_width_px)
     return (double)thin / THIN_PLACES;
 }
 
+// True of a piece that is longer across the line from the ring's centre than along it.
+static bool lies_along(const struct shape *piece, const struct vector *centre)
+{
+    const double x = piece->x_px - centre->x;
+    const double y = piece->y_px - centre->y;
+    const double along = x * x * piece->cov_xx + 2.0 * x * y * piece->cov_xy + y * y * piece->cov_yy;
+    const double across = y * y * piece->cov_xx - 2.0 * x * y * piece->cov_xy + x * x * piece->cov_yy;
+
+    return across > ARC_VARIANCES * along;
+}
+
 // Mean square distances from the pad's centre, mm^2.
 struct annuli {
     double piece_least; // of the ring
@@ -288,6 +301,7 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     const struct annuli *annuli = fitted ? &known : &guessed;
     struct shape expected;
     struct shape_sum ring = {.area_px = 0.0};
+    double arcs_px = 0.0;
     int pieces = 0;
     double invariant = 0.0;
     bool clipped = false;
@@ -308,9 +322,11 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     const double rectangle_px = area_px / inside * pad_area_mm2(PAD_RECTANGLE) / pad_area_mm2(PAD_RING);
     struct pixel_mm pixel;
     struct grid_near near;
+    struct vector centre;
     if (!pixel_mm_at(context, plane, &expected, &pixel)) {
         return;
     }
+    (void)camera_image(context->camera, plane->centre, &centre.x, &centre.y);
     grid_near(context->grid, expected.x_px, expected.y_px, reach * reach, &near);
     context->work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
     for (int i = 0; i < near.count; i++) {
@@ -327,11 +343,13 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
             continue;
         }
         shape_sum_add(&ring, shape);
+        arcs_px += lies_along(shape, &centre) ? shape->area_px : 0.0;
         clipped = clipped || candidate->clipped;
         invariant = shape->invariant;
         pieces++;
     }
     reading->ring_share = ring.area_px / area_px;
+    reading->ring_arcs = arcs_px / area_px;
     // One that is whole by its own looks is what it is, though it has too much or too little print for this view.
     const bool clean = pieces == 1 && invariant >= CLEAN_RING_INVARIANT_MIN && invariant <= CLEAN_RING_INVARIANT_MAX;
     const bool whole = reading->ring_share >= RING_SHARE_WHOLE && reading->ring_share <= 1.0 / RING_SHARE_WHOLE;

@@ -26,6 +26,7 @@ struct detect_context {
 struct reading {
     struct pad_evidence evidence;
     double ring_share;
+    double ring_arcs;   // the same of pieces that lie along the ring, as arcs of it do
     double ring_inside; // share of the ring's print inside the frame
     double clutter;     // dark things inside the ring that are not of the pad, in rectangles
     int missing;        // inner shapes that should be seen and are not

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "detect.h"
+#include "pad_geometry.h"
 #include "test.h"
 #include "test_scene.h"
 
@@ -183,6 +184,11 @@ static bool beside(double x_mm, double y_mm)
     return fabs(x_mm - 138.0) < 8.0 && fabs(y_mm) < 12.0;
 }
 
+static bool beside_centre(double x_mm, double y_mm)
+{
+    return fabs(x_mm - 60.0) < 10.0 && fabs(y_mm) < 15.0;
+}
+
 // Square, rectangle and half of the ring.
 static void paint_half(const struct scene *scene)
 {
@@ -269,7 +275,7 @@ static void test_clutter_needs_more(void)
     hint.searching = true;
     CHECK(!find_with(&hint));
     test_case("half of a ring is nothing when the record is full");
-    hint.height_m = near.height_m;
+    hint.height_m = 1.12 * near.height_m;
     hint.searching = false;
     paint_half(&near);
     CHECK(find_with(&hint));
@@ -291,6 +297,91 @@ static void test_clutter_needs_more(void)
     record.header.objects_dropped = 1U;
     CHECK(find_with(&hint));
     check_centre(&near, 0.2);
+}
+
+// Half of a ring, in as many specks as it has 15 degrees.
+static double speck_deg;
+
+static bool ring_speck(double x_mm, double y_mm)
+{
+    const double radius_mm = (RING_OUTER_RADIUS_MM + RING_INNER_RADIUS_MM) / 2.0;
+    const double x = x_mm - radius_mm * cos(speck_deg * acos(-1.0) / 180.0);
+    const double y = y_mm - radius_mm * sin(speck_deg * acos(-1.0) / 180.0);
+
+    return hypot(x, y) < 12.5;
+}
+
+// What all else confirms may lack more of the ring.
+static void test_confirmed(void)
+{
+    const struct scene scene = {.height_m = 1.1, .right_m = 0.2, .heading_deg = 50.0};
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = scene.height_m, .searching = true};
+
+    test_case("half of a ring among clutter, with LiDAR and attitude");
+    paint_half(&scene);
+    record.header.objects_dropped = 1U;
+    CHECK(find_with(&hint));
+    check_centre(&scene, 0.3);
+    CHECK(pad.doubt > 0.6 && pad.doubt <= 1.5);
+    test_case("not with another height");
+    hint.height_m = 0.88 * scene.height_m;
+    CHECK(!find_with(&hint));
+    hint.height_m = 1.12 * scene.height_m;
+    CHECK(!find_with(&hint));
+    test_case("nor without one, or without attitude");
+    hint.height_m = 0.0;
+    CHECK(!find_with(&hint));
+    hint.height_m = scene.height_m;
+    hint.tilt.sigma = detect_no_hint.tilt.sigma;
+    CHECK(!find_with(&hint));
+    hint.tilt.sigma = 0.025;
+    test_case("nor with something inside that does not belong");
+    scene_paint(&record, &scene, beside_centre);
+    CHECK(!find_with(&hint));
+    test_case("nor with specks in the ring's place");
+    scene_clear(&record);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    for (int speck = 0; speck < 18; speck++) {
+        speck_deg = 15.0 * speck;
+        scene_paint(&record, &scene, ring_speck);
+    }
+    hint.searching = false;
+    CHECK(find_with(&hint));
+    NEAR(pad.ring_share, 0.5, 0.15);
+    hint.searching = true;
+    record.header.objects_dropped = 1U;
+    CHECK(!find_with(&hint));
+}
+
+// From afar, where the opening takes most of the ring, an arc of it is enough.
+static void test_traces_of_the_ring(void)
+{
+    const struct scene scene = {.height_m = 2.4, .right_m = 0.3, .heading_deg = 75.0};
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = scene.height_m, .searching = true};
+
+    test_case("an arc of a far ring");
+    scene_clear(&record);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    CHECK(!find_with(&hint));
+    scene_paint(&record, &scene, right_piece);
+    CHECK(find_with(&hint));
+    CHECK(pad.ring_share > 0.12 && pad.ring_share < 0.3);
+    check_centre(&scene, 0.3);
+    hint.height_m = 1.15 * scene.height_m;
+    CHECK(!find_with(&hint));
+    hint.height_m = scene.height_m;
+    hint.tilt.sigma = detect_no_hint.tilt.sigma;
+    CHECK(!find_with(&hint));
+    hint.tilt.sigma = 0.025;
+    test_case("specks are no arc");
+    record.header.object_count--;
+    for (int speck = 0; speck < 6; speck++) {
+        speck_deg = 15.0 * speck;
+        scene_paint(&record, &scene, ring_speck);
+    }
+    CHECK(!find_with(&hint));
 }
 
 // The frame's border touches the rectangle, or cuts into it.
@@ -419,6 +510,8 @@ void test_detect(void)
 {
     test_last_view();
     test_clutter_needs_more();
+    test_confirmed();
+    test_traces_of_the_ring();
     test_pair_at_the_border();
     test_thin_ring();
     test_no_ring_and_another_height();

@@ -17,9 +17,9 @@ static int fit_in_time(const struct pad_evidence *evidence, const struct camera 
                        struct pad_view *view, double *misfit, double *worst)
 {
     struct work work = {.done = -100 * WORK_A_FRAME};
-    int steps = 0;
+    struct pad_fit_progress progress = {.steps = 0};
 
-    return pad_fit(evidence, camera, tilt, view, misfit, worst, &steps, &work);
+    return pad_fit(evidence, camera, tilt, view, misfit, worst, &progress, &work);
 }
 
 static struct pad_evidence evidence_of(const struct pad_view *view, const struct camera *camera, bool clipped)
@@ -212,19 +212,19 @@ static void test_in_parts(void)
     double worst;
     double before = HUGE_VAL;
     int calls = 0;
-    int steps = 0;
+    struct pad_fit_progress progress = {.steps = 0};
     int result = PAD_FIT_UNFINISHED;
 
     test_case("without time nothing is fitted");
     struct work over = {.done = WORK_A_FRAME};
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &steps, &over) == PAD_FIT_UNFINISHED);
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &progress, &over) == PAD_FIT_UNFINISHED);
     for (int i = 0; i < PAD_PARAMETERS; i++) {
         NEAR(view.value[i], start.value[i], 0.0);
     }
     test_case("a step a call comes to the same end");
     while (result == PAD_FIT_UNFINISHED && calls < PAD_FIT_STEPS) {
         struct work work = {.done = WORK_A_FRAME, .granted = true};
-        result = pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &steps, &work);
+        result = pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &progress, &work);
         CHECK(misfit < before);
         CHECK(work.done > WORK_A_FRAME && work.done < 2 * WORK_A_FRAME);
         before = misfit;
@@ -232,12 +232,12 @@ static void test_in_parts(void)
     }
     CHECK(result == 0);
     CHECK(calls > 2);
-    CHECK(steps > 1 && steps < PAD_FIT_STEPS);
+    CHECK(progress.steps > 1 && progress.steps < PAD_FIT_STEPS);
     check_same(&view, &truth, 1.0);
     test_case("after so many steps it ends where it is");
-    steps = PAD_FIT_STEPS;
+    progress.steps = PAD_FIT_STEPS;
     view = start;
-    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &steps, &(struct work){.done = 0}) == 0);
+    CHECK(pad_fit(&evidence, &camera_default, &no_hint, &view, &misfit, &worst, &progress, &(struct work){.done = 0}) == 0);
     NEAR(view.value[PAD_X_PX], start.value[PAD_X_PX], 0.0);
 }
 

@@ -2,6 +2,7 @@
 """How many instructions a frame and an interrupt take on the board, at worst, counted on QEMU."""
 
 import random
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
@@ -21,9 +22,7 @@ from sim.world.pose import Pose
 from sim.world.renderer import render
 
 FRAME_LIMIT = 300_000
-"""From the copy of a record to a LANDING_TARGET that waits to be sent, be the pad where it was or anywhere."""
-VAIN_LIMIT = 2_500_000
-"""A frame without a pad and full of what looks like one, to the end of it all: 5 ms, a third of a frame."""
+"""From the copy of a record to a LANDING_TARGET that waits to be sent, or to the end of it all where there is none."""
 INTERRUPT_LIMIT = 1_000
 INTERRUPT = {"interrupt": ("interrupt_entry", "interrupt_return")}
 _FRAME_US = 70_000
@@ -91,9 +90,10 @@ def test_instructions_of_a_frame_and_an_interrupt(scene: np.ndarray) -> None:
     assert max(interrupts) <= INTERRUPT_LIMIT
 
 
-def decoys(camera: Camera) -> np.ndarray:
+def decoys() -> np.ndarray:
     """Squares and rectangles as a pad has them, each in a ring that is too large; clutter fills the record."""
     chance = random.Random(3)
+    camera = Camera()
     parts = []
     for right_m in (-0.9, -0.54, -0.18, 0.18, 0.54, 0.9):
         for forward_m in (-0.36, 0.0, 0.36):
@@ -106,22 +106,76 @@ def decoys(camera: Camera) -> np.ndarray:
     return np.concatenate([objects, clutter(RECORD_MAX_OBJECTS - len(objects), 5, np.zeros(3))])
 
 
-def test_instructions_of_a_search_in_vain() -> None:
-    objects = decoys(Camera())
+def over(altitude_m: float, aside_m: float, others: np.ndarray | None = None) -> np.ndarray:
+    """The pad, and as many of the others as a record has room for, wherever they lie."""
+    pose = Pose(altitude_m=altitude_m, right_m=aside_m, forward_m=-0.8 * aside_m, pad_yaw_deg=30.0)
+    pad = objects_of(Camera(), pose, 60)
+    return pad if others is None else np.concatenate([others[: RECORD_MAX_OBJECTS - len(pad)], pad])
+
+
+def pattern(step: tuple[int, int], shapes: list[tuple[int, int]]) -> np.ndarray:
+    """A floor of boxes around the middle of the picture, one size after the other."""
+    picture = np.zeros((SIZE[1], SIZE[0]), np.uint8)
+    cells = [(x, y) for y in range(20, SIZE[1] - 20, step[1]) for x in range(20, SIZE[0] - 70, step[0])]
+    cells.sort(key=lambda cell: (cell[0] - SIZE[0] / 2) ** 2 + (cell[1] - SIZE[1] / 2) ** 2)
+    for number, (x, y) in enumerate(cells[:RECORD_MAX_OBJECTS]):
+        width, height = shapes[number % len(shapes)]
+        cv2.rectangle(picture, (x, y), (x + width - 1, y + height - 1), 1, -1)
+    return ccl(picture, 30)
+
+
+def rings(radius: int, width: int) -> np.ndarray:
+    """As many circles as fit."""
+    picture = np.zeros((SIZE[1], SIZE[0]), np.uint8)
+    step = 2 * radius + width + 4
+    for y in range(step // 2, SIZE[1] - step // 2, step):
+        for x in range(step // 2, SIZE[0] - step // 2, step):
+            cv2.circle(picture, (x, y), radius, 1, width)
+    return ccl(picture, 30)[:RECORD_MAX_OBJECTS]
+
+
+def floor_of_stripes(altitude_m: float, step: tuple[int, int], size: tuple[int, int]) -> np.ndarray:
+    """Stripes that all lie inside the ring: each may be a piece of it."""
+    return over(altitude_m, 0.0, pattern(step, [size]))
+
+
+SCENES: dict[str, Callable[[], np.ndarray]] = {
+    "decoys": decoys,
+    "the pad among clutter that touches it, 1 m": lambda: over(1.0, 0.05, clutter(RECORD_MAX_OBJECTS, 5, np.zeros(3))),
+    "the same, at the border, 0.5 m": lambda: over(0.5, 0.2, clutter(RECORD_MAX_OBJECTS, 5, np.zeros(3))),
+    "the same, 0.3 m": lambda: over(0.3, 0.0, clutter(RECORD_MAX_OBJECTS, 5, np.zeros(3))),
+    "cut by the border, 0.3 m": lambda: over(0.3, 0.1),
+    "cut by the border, 0.2 m": lambda: over(0.2, 0.05),
+    "cut by the border, 0.1 m": lambda: over(0.1, 0.02),
+    "squares and rectangles": lambda: pattern((18, 16), [(15, 8), (9, 9)]),
+    "squares and rectangles far apart": lambda: pattern((66, 50), [(25, 13), (13, 13)]),
+    "rings": lambda: rings(20, 5),
+    "small rings": lambda: rings(18, 12),
+    "stripes, 0.3 m": lambda: floor_of_stripes(0.3, (48, 14), (43, 6)),
+    "stripes, 0.6 m": lambda: floor_of_stripes(0.6, (30, 9), (27, 4)),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_frame_takes_longer(name: str) -> None:
+    """Whatever there is to be looked at: what has no time goes on in the next frame."""
+    objects = SCENES[name]()
     board = ZynqBoard(SPANS)
+    counts: list[int] = []
+    found = 0
     try:
         now_us = 100_000
-        board.run_to(now_us, 2000)
-        for _ in range(14):
+        board.run_to(now_us, 1000)
+        for _ in range(12):
             now_us = frame(board, now_us, objects)
-        found, frames = board.passes("target"), board.passes("record")
+            targets = board.passes("target")
+            # With a pad, all that follows is to wait until it is due.
+            counts.append(targets[-1] if len(targets) > found else board.passes("record")[-1])
+            found = len(targets)
     finally:
         board.close()
-    print(f"frames: {frames}")
-    assert not found
-    assert len(frames) == 14
-    assert min(frames) > FRAME_LIMIT
-    assert max(frames) <= VAIN_LIMIT
+    print(f"{len(objects)} objects, in {found} of {len(counts)} frames a pad: {counts}")
+    assert max(counts) <= FRAME_LIMIT
 
 
 def test_photographs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
