@@ -73,15 +73,15 @@ static void try_mirrored(const struct detect_context *context, bool fused, struc
                          struct reading *reading, struct pad_estimate *pad)
 {
     struct hypothesis other = {.view = pad->view, .fused = fused, .mirrored = true};
-    struct pad_estimate mirrored;
+    struct pad_estimate mirrored = {.fused = fused};
     struct reading mirrored_reading;
-    double worst;
+    double worst = 0.0;
 
     if (!mirror(context, &other.view)) {
         return;
     }
     const int result = fit(context, round != NULL, &other, &mirrored_reading, &mirrored.misfit, &worst);
-    if (result == DETECT_E_GOES_ON) {
+    if (round != NULL && result == DETECT_E_GOES_ON) {
         round->fitting = true;
         round->fit = other;
     }
@@ -89,7 +89,6 @@ static void try_mirrored(const struct detect_context *context, bool fused, struc
         return;
     }
     mirrored.view = other.view;
-    mirrored.fused = fused;
     mirrored.doubt = doubt_of(context, &mirrored_reading, &other.view, mirrored.misfit, worst);
     if (mirrored.doubt >= 0.0 && (pad->doubt < 0.0 || mirrored.doubt < pad->doubt)) {
         *pad = mirrored;
@@ -102,10 +101,11 @@ int attempt(const struct detect_context *context, const struct hypothesis *hypot
 {
     struct hypothesis tried = *hypothesis;
     struct reading reading;
-    double worst;
+    double worst = 0.0;
 
+    pad->misfit = 0.0;
     const int result = fit(context, round != NULL, &tried, &reading, &pad->misfit, &worst);
-    if (result == DETECT_E_GOES_ON) {
+    if (round != NULL && result == DETECT_E_GOES_ON) {
         round->fitting = true;
         round->fit = tried;
     }

@@ -150,7 +150,7 @@ static void next_list(struct search_round *round, int count, bool known)
     round->lists++;
     if (round->next != 0 && round->lists < LISTS_MAX) {
         // The same candidate as then, or one shortly before it: shapes come and go, in this order.
-        const int place = round->next * count / round->of - DRIFT;
+        const int place = (int)((double)round->next * count / round->of) - DRIFT;
         round->from = place > 0 ? place : 0;
         return;
     }

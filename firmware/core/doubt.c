@@ -124,13 +124,34 @@ static double pieces_doubt_max(const struct detect_context *context, const struc
     return in_one_piece ? single : patched;
 }
 
+// What of the ring is missing and should not be.
+static double broken_of(const struct detect_context *context, const struct reading *reading)
+{
+    const double share = at_most(reading->ring_share, 1.0);
+    const double missing = at_most(2.0 * reading->ring_inside, 1.0) * (1.0 - share);
+    // Pieces of a ring that is thin all round, or among clutter, are found anywhere.
+    const bool clutter = context->hint->searching || context->crowded;
+    const double thin = clutter || reading->ring_thin > EXCUSED_THIN_MAX ? 0.0 : at_most(reading->ring_thin, EXCUSED_MAX);
+
+    return DOUBT_RING * at_least(missing - at_least(thin, 1.0 - RING_SHARE_WHOLE), 0.0);
+}
+
+// True of square and rectangle where too little of the ring is seen to say anything by itself.
+static bool is_far_pair(const struct detect_context *context, const struct reading *reading,
+                        const struct pad_plane *plane, double misfit, double doubt)
+{
+    const bool traces = reading->ring_width_px <= FAR_RING_WIDTH_PX && reading->ring_arcs >= FAR_ARCS_MIN &&
+                        is_confirmed(context, reading, plane, misfit) && doubt <= CONFIRMED_MISFIT_MAX;
+
+    return reading_has_whole_pair(reading) &&
+           (traces || (far_enough(context, reading, plane) && doubt <= FAR_DOUBT_MAX));
+}
+
 // How far the view is from being believed; a negative number if it cannot be at all.
 double doubt_of(const struct detect_context *context, const struct reading *reading, const struct pad_view *view,
                 double misfit, double worst)
 {
     const double tilt = at_least(fabs(view->value[PAD_TILT_X]), fabs(view->value[PAD_TILT_Y]));
-    const double share = at_most(reading->ring_share, 1.0);
-    const double missing = at_most(2.0 * reading->ring_inside, 1.0) * (1.0 - share);
     const bool small_ring =
         reading_has(reading, PAD_SMALL_RING) &&
         reading_of(reading, PAD_SMALL_RING)->seen.area_px >= NO_RING_SMALL_RING_AREA_MIN_PX;
@@ -154,11 +175,7 @@ double doubt_of(const struct detect_context *context, const struct reading *read
         hypot(view->value[PAD_TILT_X], view->value[PAD_TILT_Y]) > UNCONFIRMED_TILT) {
         return -1.0;
     }
-    // Pieces of a ring that is thin all round, or among clutter, are found anywhere.
-    const bool clutter = context->hint->searching || context->crowded;
-    const double thin = clutter || reading->ring_thin > EXCUSED_THIN_MAX ? 0.0 : at_most(reading->ring_thin, EXCUSED_MAX);
-    const double excused = at_least(thin, 1.0 - RING_SHARE_WHOLE);
-    const double broken = DOUBT_RING * at_least(missing - excused, 0.0);
+    const double broken = broken_of(context, reading);
     // Two of three that do not depend on each other, one of them the pair or half of it.
     if (pair && small_ring) {
         // Small shapes inside a wrong ring are a pad seen from higher up, but for the LiDAR.
@@ -174,8 +191,5 @@ double doubt_of(const struct detect_context *context, const struct reading *read
     if ((reading->kinds & (PAD_SQUARE | PAD_RECTANGLE)) != 0U && ring && small_ring) {
         return doubt + broken <= CLOSE_DOUBT_MAX ? doubt + broken : -1.0;
     }
-    const bool far = reading_has_whole_pair(reading) && far_enough(context, reading, &plane) && doubt <= FAR_DOUBT_MAX;
-    const bool traces = pair && reading->ring_width_px <= FAR_RING_WIDTH_PX && reading->ring_arcs >= FAR_ARCS_MIN &&
-                        is_confirmed(context, reading, &plane, misfit) && doubt <= CONFIRMED_MISFIT_MAX;
-    return far || traces ? doubt : -1.0;
+    return is_far_pair(context, reading, &plane, misfit, doubt) ? doubt : -1.0;
 }

@@ -281,15 +281,16 @@ static bool slopes_at(const struct pad_evidence *evidence, const struct camera *
 {
     struct expectation rough;
     struct terms rough_terms;
-    const bool clipped = is_clipped(evidence);
-    const struct expectation *here = clipped ? &rough : &at->expectation;
-    const struct terms *terms = clipped ? &rough_terms : &at->terms;
+    const struct expectation *here = &at->expectation;
+    const struct terms *terms = &at->terms;
 
-    if (clipped) {
+    if (is_clipped(evidence)) {
         if (expect(evidence, camera, &at->view, true, &rough) != 0) {
             return false;
         }
         residuals_of(evidence, &rough, at->view.value[PAD_EDGE_PX], &rough_terms);
+        here = &rough;
+        terms = &rough_terms;
     }
     for (int i = 0; i < PAD_PARAMETERS; i++) {
         struct pad_view moved = at->view;

@@ -305,14 +305,18 @@ double pad_plane_moments(const struct pad_plane *plane, const struct camera *cam
     return sums.area / sums.whole;
 }
 
+static int points_of(const struct annulus *annulus, enum pad_sampling sampling)
+{
+    return (int)(36.0 * radii_of(sampling) / tens_of(annulus, sampling));
+}
+
 int pad_plane_work(unsigned kinds, enum pad_sampling sampling)
 {
     const int box = cells_of(sampling) * cells_of(sampling);
-    const int round = 36 * radii_of(sampling);
 
     const int points = ((kinds & PAD_SQUARE) != 0U ? box : 0) + ((kinds & PAD_RECTANGLE) != 0U ? box : 0) +
-                       ((kinds & PAD_SMALL_RING) != 0U ? round / tens_of(&small_ring, sampling) : 0) +
-                       ((kinds & PAD_RING) != 0U ? round / tens_of(&ring, sampling) : 0);
+                       ((kinds & PAD_SMALL_RING) != 0U ? points_of(&small_ring, sampling) : 0) +
+                       ((kinds & PAD_RING) != 0U ? points_of(&ring, sampling) : 0);
 
     return points * (sampling == PAD_WHOLE ? WORK_POINT : WORK_CLIPPED_POINT);
 }

@@ -295,70 +295,86 @@ static const struct annuli known = {
     .clutter_greatest = MARGIN_MM * MARGIN_MM,
 };
 
+// What lies where the ring does.
+struct pieces {
+    struct shape_sum sum;
+    double arcs_px;    // of those that lie along it
+    double clutter_px; // of what lies elsewhere within reach and was not taken for an inner shape
+    int count;
+    double invariant; // of the last
+    bool clipped;
+};
+
+// `reach`: of the disc, from the expected shape. Nothing larger than `most_px` belongs.
+static bool gather(const struct detect_context *context, const struct pad_plane *plane, const struct annuli *annuli,
+                   const struct reading *reading, const struct shape *expected, double reach, double most_px,
+                   struct pieces *pieces)
+{
+    struct pixel_mm pixel;
+    struct grid_near near;
+    struct vector centre;
+
+    *pieces = (struct pieces){.sum = {.origin = *expected}};
+    if (!pixel_mm_at(context, plane, expected, &pixel)) {
+        return false;
+    }
+    (void)camera_image(context->camera, plane->centre, &centre.x, &centre.y);
+    grid_near(context->grid, expected->x_px, expected->y_px, reach * reach, &near);
+    context->work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
+    for (int i = 0; i < near.count; i++) {
+        struct candidate *candidate = &context->scratch->candidates[near.list[i]];
+        const struct shape *shape = &candidate->shape;
+        if (shape->area_px > most_px) {
+            continue;
+        }
+        const double square = square_radius(context, plane, &pixel, candidate);
+        if (square > annuli->piece_least && square < annuli->piece_greatest) {
+            shape_sum_add(&pieces->sum, shape);
+            pieces->arcs_px += lies_along(shape, &centre) ? shape->area_px : 0.0;
+            pieces->clipped = pieces->clipped || candidate->clipped;
+            pieces->invariant = shape->invariant;
+            pieces->count++;
+        } else if (square > annuli->clutter_least && square < annuli->clutter_greatest && !is_sighted(reading, shape)) {
+            pieces->clutter_px += shape->area_px;
+        }
+    }
+    return true;
+}
+
 static void match_ring(const struct detect_context *context, const struct pad_plane *plane, double edge_px,
                        bool fitted, struct reading *reading)
 {
-    const struct annuli *annuli = fitted ? &known : &guessed;
     struct shape expected;
-    struct shape_sum ring = {.area_px = 0.0};
-    double arcs_px = 0.0;
-    int pieces = 0;
-    double invariant = 0.0;
-    bool clipped = false;
+    struct pieces pieces;
     const double inside = expected_of(context, plane, PAD_RING, &expected);
 
     reading->ring_inside = inside;
     if (!(inside > 0.05)) {
         return;
     }
-    ring.origin = expected;
     const double edges_px = pad_edges_px(PAD_RING, &expected, inside);
     const double area_px = at_least(expected.area_px + edge_px * edges_px, expected.area_px / 3.0);
     reading->ring_width_px = 2.0 * area_px / edges_px;
     reading->ring_thin = thin_share(&expected, reading->ring_width_px);
     // The disc, in any direction, from wherever the border has moved the centroid to.
     const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / at_least(inside, 0.3);
-    // One part of clutter weighs as much as the rectangle would.
-    const double rectangle_px = area_px / inside * pad_area_mm2(PAD_RECTANGLE) / pad_area_mm2(PAD_RING);
-    struct pixel_mm pixel;
-    struct grid_near near;
-    struct vector centre;
-    if (!pixel_mm_at(context, plane, &expected, &pixel)) {
+    if (!gather(context, plane, fitted ? &known : &guessed, reading, &expected, reach, RING_SHARE_MAX * area_px, &pieces)) {
         return;
     }
-    (void)camera_image(context->camera, plane->centre, &centre.x, &centre.y);
-    grid_near(context->grid, expected.x_px, expected.y_px, reach * reach, &near);
-    context->work->done += WORK_NEAR + WORK_LOOK * near.looked_at;
-    for (int i = 0; i < near.count; i++) {
-        struct candidate *candidate = &context->scratch->candidates[near.list[i]];
-        const struct shape *shape = &candidate->shape;
-        if (shape->area_px > RING_SHARE_MAX * area_px) {
-            continue;
-        }
-        const double square = square_radius(context, plane, &pixel, candidate);
-        if (!(square > annuli->piece_least) || !(square < annuli->piece_greatest)) {
-            if (square > annuli->clutter_least && square < annuli->clutter_greatest && !is_sighted(reading, shape)) {
-                reading->clutter += shape->area_px / rectangle_px;
-            }
-            continue;
-        }
-        shape_sum_add(&ring, shape);
-        arcs_px += lies_along(shape, &centre) ? shape->area_px : 0.0;
-        clipped = clipped || candidate->clipped;
-        invariant = shape->invariant;
-        pieces++;
-    }
-    reading->ring_share = ring.area_px / area_px;
-    reading->ring_arcs = arcs_px / area_px;
+    reading->ring_share = pieces.sum.area_px / area_px;
+    reading->ring_arcs = pieces.arcs_px / area_px;
+    // One part of clutter weighs as much as the rectangle would.
+    reading->clutter = pieces.clutter_px / (area_px / inside) * pad_area_mm2(PAD_RING) / pad_area_mm2(PAD_RECTANGLE);
     // One that is whole by its own looks is what it is, though it has too much or too little print for this view.
-    const bool clean = pieces == 1 && invariant >= CLEAN_RING_INVARIANT_MIN && invariant <= CLEAN_RING_INVARIANT_MAX;
+    const bool clean = pieces.count == 1 && pieces.invariant >= CLEAN_RING_INVARIANT_MIN &&
+                       pieces.invariant <= CLEAN_RING_INVARIANT_MAX;
     const bool whole = reading->ring_share >= RING_SHARE_WHOLE && reading->ring_share <= 1.0 / RING_SHARE_WHOLE;
     if ((!clean && !whole) ||
-        ((context->options & DETECT_RING_PIECES) == 0U && (pieces != 1 || clipped))) {
+        ((context->options & DETECT_RING_PIECES) == 0U && (pieces.count != 1 || pieces.clipped))) {
         return;
     }
-    const struct shape seen = shape_of_sum(&ring);
-    add_sighting(reading, PAD_RING, &seen, clipped || inside < MATCH_INSIDE_WHOLE, pieces > 1);
+    const struct shape seen = shape_of_sum(&pieces.sum);
+    add_sighting(reading, PAD_RING, &seen, pieces.clipped || inside < MATCH_INSIDE_WHOLE, pieces.count > 1);
 }
 
 // All that lies inside the ring, as one: the inner shapes have run together.
@@ -366,7 +382,6 @@ static void match_fused(const struct detect_context *context, const struct pad_p
 {
     struct shape_sum inner = {.area_px = 0.0};
     struct shape expected;
-
     struct shape ring;
 
     context->work->done += pad_plane_work(PAD_INNER | PAD_RING, PAD_WHOLE);
