@@ -80,6 +80,13 @@ static void try_mirrored(const struct detect_context *context, bool fused, struc
     if (!mirror(context, &other.view)) {
         return;
     }
+    if (work_is_over(context->work)) {
+        if (round != NULL) {
+            round->fitting = true;
+            round->fit = other;
+        }
+        return;
+    }
     const int result = fit(context, round != NULL, &other, &mirrored_reading, &mirrored.misfit, &worst);
     if (round != NULL && result == DETECT_E_GOES_ON) {
         round->fitting = true;

@@ -25,6 +25,7 @@ static void hardware_writes(void);
 #define ROUNDS_MAX 10
 #define FENCES 2U
 #define LEAST_AREA_PX 30U
+#define WORK_MOST (2 * WORK_A_FRAME)
 #define MOST_AREA_PX 150U
 
 // In this order the hardware fills a buffer.
@@ -111,6 +112,7 @@ static int take(struct input *input)
 static void check_state(void)
 {
     DEMAND(app_min_area_px(&app) >= LEAST_AREA_PX && app_min_area_px(&app) <= MOST_AREA_PX);
+    DEMAND(app.scratch.work >= 0 && app.scratch.work <= WORK_MOST);
     DEMAND((app_threshold_register(&app) >> LANDING_REG_THRESHOLD_FACTOR_SHIFT & 0xFFU) >= 72U);
 }
 
