@@ -242,6 +242,7 @@ static struct detect_hint hint_of(const struct app *app, const struct landing_re
         header->start_time_us - app->last_view_us <= LAST_VIEW_US) {
         hint.last = &app->last_view;
         hint.last_fused = app->last_fused;
+        hint.last_ringless = app->last_ringless;
         hint.last_doubt = app->last_doubt;
     }
     return hint;
@@ -263,6 +264,7 @@ static void keep_view(struct app *app, const struct pad_estimate *pad, uint64_t 
     app->has_last_view = true;
     app->last_view = pad->view;
     app->last_fused = pad->fused;
+    app->last_ringless = pad->ringless;
     app->last_doubt = pad->search_doubt;
     app->last_view_us = start_us;
 }

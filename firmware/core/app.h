@@ -120,6 +120,7 @@ struct app {
     double last_doubt; // that it left when it was searched for
     bool has_last_view;
     bool last_fused; // its inner shapes were seen as one
+    bool last_ringless; // it was fitted without the ring
     bool camera_lost;
     bool lidar_worked; // since power-up
     uint32_t min_area_px;

@@ -41,8 +41,7 @@ static int fit(const struct detect_context *context, bool whole, struct hypothes
 
     // The first fit brings all shapes into reach; the second uses them, if there are others now.
     for (;;) {
-        if (reading_take(context, &hypothesis->view, hypothesis->fused, hypothesis->fitted, reading) != 0 ||
-            reading->evidence.count < 2) {
+        if (reading_take(context, hypothesis, reading) != 0 || reading->evidence.count < 2) {
             return DETECT_E_NO_PAD;
         }
         if (hypothesis->fitted && reading_same(reading, &before)) {
@@ -81,14 +80,12 @@ static void try_mirrored(const struct detect_context *context, bool fused, struc
         return;
     }
     if (work_is_over(context->work)) {
-        if (round != NULL) {
-            round->fitting = true;
-            round->fit = other;
-        }
+        round->fitting = true;
+        round->fit = other;
         return;
     }
-    const int result = fit(context, round != NULL, &other, &mirrored_reading, &mirrored.misfit, &worst);
-    if (round != NULL && result == DETECT_E_GOES_ON) {
+    const int result = fit(context, true, &other, &mirrored_reading, &mirrored.misfit, &worst);
+    if (result == DETECT_E_GOES_ON) {
         round->fitting = true;
         round->fit = other;
     }
@@ -122,11 +119,13 @@ int attempt(const struct detect_context *context, const struct hypothesis *hypot
     pad->view = tried.view;
     pad->fused = tried.fused;
     pad->doubt = doubt_of(context, &reading, &pad->view, pad->misfit, worst);
-    if (!tried.mirrored && pad->misfit > MIRROR_MISFIT && reading.evidence.count >= 3) {
+    // What is followed had its mirror image tried when it was searched for.
+    if (round != NULL && !tried.mirrored && pad->misfit > MIRROR_MISFIT && reading.evidence.count >= 3) {
         try_mirrored(context, tried.fused, round, &reading, pad);
     }
     if (pad->doubt < 0.0 || pad->doubt > DOUBT_MAX) {
         return DETECT_E_NO_PAD;
     }
+    pad->ringless = !reading_has(&reading, PAD_RING);
     return estimate_of(context, &reading, pad);
 }

@@ -27,7 +27,7 @@
 #define DRIFT 4
 
 const struct detect_hint detect_no_hint = {
-    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL, .last_fused = false, .last_doubt = 0.0};
+    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL, .last_fused = false, .last_ringless = false, .last_doubt = 0.0};
 
 static const struct search_round no_round = {.kind = SEARCH_PAIRS};
 
@@ -198,10 +198,15 @@ static int follow(const struct detect_context *context, struct pad_estimate *pad
     const struct detect_hint *hint = context->hint;
     struct search_round *round = &context->scratch->round;
     struct pad_estimate last = {.doubt = 0.0};
-    const bool known =
-        hint->last != NULL &&
-        attempt(context, &(struct hypothesis){.view = *hint->last, .fused = hint->last_fused}, NULL, &last) == 0;
+    struct hypothesis there = {.fused = hint->last_fused, .ringless = hint->last_ringless, .followed = true};
+    // Every other frame is the search's alone, if the pad is not where it was.
+    const bool tries = hint->last != NULL && !context->scratch->lost;
 
+    if (tries) {
+        there.view = *hint->last;
+    }
+    const bool known = tries && attempt(context, &there, NULL, &last) == 0;
+    context->scratch->lost = tries && !known;
     if (known && last.doubt < at_least(DOUBT_SAME * hint->last_doubt, DOUBT_NONE)) {
         *round = no_round;
         *pad = last;

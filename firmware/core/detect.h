@@ -36,6 +36,8 @@ struct hypothesis {
     struct pad_view view; // near enough to be fitted
     bool fused;           // the inner shapes have run together
     double error;         // of its list, the least is tried first
+    bool followed;        // it was the pad a moment ago, so that the ring lies where it says
+    bool ringless;        // it was fitted without the ring, of which too much or too little was seen
     bool fitted;          // all shapes are in reach; else the view is a guess still
     struct pad_fit_progress progress;
     bool mirrored;        // it came from its mirror image, which had its turn
@@ -67,6 +69,7 @@ struct search_round {
 
 struct detect_scratch {
     struct search_round round;
+    bool lost; // the last view was tried in the frame before, and nothing was there
     int work; // that the last frame took: see work.h
     int count;
     struct candidate candidates[LANDING_RECORD_MAX_OBJECTS];
@@ -86,6 +89,7 @@ struct pad_estimate {
     double ring_share;  // of the ring's visible print that was seen
     unsigned kinds;     // PAD_* that were seen
     bool fused;         // the inner shapes as one
+    bool ringless;      // fitted without the ring
     double search_doubt; // left by this pad when it was last searched for
 };
 
@@ -96,6 +100,7 @@ struct detect_hint {
     bool searching;        // the thresholds have not the usual factor: most of what is seen is clutter
     const struct pad_view *last; // of the pad a moment ago, or NULL: tried first, and if it leaves little doubt, alone
     bool last_fused;             // its inner shapes were seen as one
+    bool last_ringless;          // it was fitted without the ring
     double last_doubt;           // that it may leave: what it left when nothing better was found
 };
 

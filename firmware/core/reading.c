@@ -341,9 +341,11 @@ static bool gather(const struct detect_context *context, const struct pad_plane 
     return true;
 }
 
-static void match_ring(const struct detect_context *context, const struct pad_plane *plane, double edge_px,
-                       bool fitted, struct reading *reading)
+static void match_ring(const struct detect_context *context, const struct pad_plane *plane,
+                       const struct hypothesis *hypothesis, struct reading *reading)
 {
+    const double edge_px = hypothesis->view.value[PAD_EDGE_PX];
+    const struct annuli *annuli = hypothesis->fitted || hypothesis->followed ? &known : &guessed;
     struct shape expected;
     struct pieces pieces;
     const double inside = expected_of(context, plane, PAD_RING, &expected);
@@ -358,7 +360,7 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     reading->ring_thin = thin_share(&expected, reading->ring_width_px);
     // The disc, in any direction, from wherever the border has moved the centroid to.
     const double reach = RING_REACH * sqrt(expected.cov_xx + expected.cov_yy) / at_least(inside, 0.3);
-    if (!gather(context, plane, fitted ? &known : &guessed, reading, &expected, reach, RING_SHARE_MAX * area_px, &pieces)) {
+    if (!gather(context, plane, annuli, reading, &expected, reach, RING_SHARE_MAX * area_px, &pieces)) {
         return;
     }
     reading->ring_share = pieces.sum.area_px / area_px;
@@ -368,7 +370,9 @@ static void match_ring(const struct detect_context *context, const struct pad_pl
     // One that is whole by its own looks is what it is, though it has too much or too little print for this view.
     const bool clean = pieces.count == 1 && pieces.invariant >= CLEAN_RING_INVARIANT_MIN &&
                        pieces.invariant <= CLEAN_RING_INVARIANT_MAX;
-    const bool whole = reading->ring_share >= RING_SHARE_WHOLE && reading->ring_share <= 1.0 / RING_SHARE_WHOLE;
+    // A ring that was not whole a moment ago is not whole for a pixel more: the fit would jump from frame to frame.
+    const double least = hypothesis->ringless ? RING_SHARE_WHOLE_AGAIN : RING_SHARE_WHOLE;
+    const bool whole = reading->ring_share >= least && reading->ring_share <= 1.0 / least;
     if ((!clean && !whole) ||
         ((context->options & DETECT_RING_PIECES) == 0U && (pieces.count != 1 || pieces.clipped))) {
         return;
@@ -410,23 +414,22 @@ static void match_fused(const struct detect_context *context, const struct pad_p
     }
 }
 
-int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused, bool fitted,
-                 struct reading *reading)
+int reading_take(const struct detect_context *context, const struct hypothesis *hypothesis, struct reading *reading)
 {
     struct pad_plane plane;
-    const double edge_px = view->value[PAD_EDGE_PX];
+    const double edge_px = hypothesis->view.value[PAD_EDGE_PX];
 
     *reading = (struct reading){.kinds = 0U};
-    if (pad_plane_of(view, context->camera, &plane) != 0) {
+    if (pad_plane_of(&hypothesis->view, context->camera, &plane) != 0) {
         return DETECT_E_NO_PAD;
     }
-    if (fused) {
+    if (hypothesis->fused) {
         match_fused(context, &plane, reading);
     } else {
         match(context, &plane, edge_px, PAD_SQUARE, reading);
         match(context, &plane, edge_px, PAD_RECTANGLE, reading);
         match(context, &plane, edge_px, PAD_SMALL_RING, reading);
     }
-    match_ring(context, &plane, edge_px, fitted, reading);
+    match_ring(context, &plane, hypothesis, reading);
     return 0;
 }

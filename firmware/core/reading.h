@@ -11,6 +11,7 @@
 #define RING_SHARE_MIN 0.3
 #define RING_SHARE_MAX 1.5
 #define RING_SHARE_WHOLE 0.85
+#define RING_SHARE_WHOLE_AGAIN 0.92
 
 struct detect_context {
     struct detect_scratch *scratch;
@@ -35,11 +36,9 @@ struct reading {
     unsigned kinds;
 };
 
-// `fused`: all that lies inside the ring is taken as one shape. `fitted`: the view
-// is no guess any more, so that what is not quite in its place does not belong.
+// By a view that is a guess more belongs to the ring than by one that is not.
 // Fails when the view is of nothing that the camera could see.
-int reading_take(const struct detect_context *context, const struct pad_view *view, bool fused, bool fitted,
-                 struct reading *reading);
+int reading_take(const struct detect_context *context, const struct hypothesis *hypothesis, struct reading *reading);
 
 // True when the same objects were taken for the same shapes.
 bool reading_same(const struct reading *a, const struct reading *b);

@@ -108,8 +108,62 @@ static void test_time_for_a_search(void)
     CHECK(frames > 1 && frames <= 20);
 }
 
+static void test_nothing_where_it_was(void)
+{
+    const struct scene scene = {.height_m = 1.0, .right_m = 0.3, .heading_deg = 20.0};
+    const struct scene before = {.height_m = 1.0, .right_m = -0.3, .heading_deg = 20.0};
+    const struct pad_view last = scene_view(&before);
+    const struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = 1.0, .last = &last, .last_doubt = 0.1};
+    int frames = 1;
+
+    test_case("where nothing is, the search has every other frame for itself");
+    scene_clear(&record);
+    paint_decoy(-0.62, 0.01, 20.0);
+    scene_paint_pad(&record, &scene);
+    memset(&scratch, 0, sizeof scratch);
+    while (frames < TURNS && !find_with(&hint)) {
+        CHECK(scratch.lost == (frames % 2 == 1));
+        frames++;
+    }
+    CHECK(frames <= 4);
+}
+
+static bool upper_arc(double x_mm, double y_mm)
+{
+    return scene_ring(x_mm, y_mm) && y_mm < -0.18 * fabs(x_mm);
+}
+
+static bool lower_arc(double x_mm, double y_mm)
+{
+    return upper_arc(x_mm, -y_mm);
+}
+
+static void test_ring_in_or_out(void)
+{
+    const struct scene scene = {.height_m = 1.0, .right_m = 0.1, .heading_deg = 20.0};
+    const struct pad_view last = scene_view(&scene);
+    struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = 1.0, .last = &last, .last_doubt = 0.1};
+
+    test_case("a ring that is nearly whole is fitted as it was a moment ago");
+    scene_clear(&record);
+    scene_paint(&record, &scene, scene_square);
+    scene_paint(&record, &scene, scene_rectangle);
+    scene_paint(&record, &scene, scene_small_ring);
+    scene_paint(&record, &scene, upper_arc);
+    scene_paint(&record, &scene, lower_arc);
+    memset(&scratch, 0, sizeof scratch);
+    CHECK(find_with(&hint));
+    CHECK(pad.ring_share > 0.85 && pad.ring_share < 0.92);
+    CHECK(!pad.ringless);
+    hint.last_ringless = true;
+    CHECK(find_with(&hint));
+    CHECK(pad.ringless);
+}
+
 void test_search(void)
 {
+    test_nothing_where_it_was();
+    test_ring_in_or_out();
     test_a_better_one_is_found();
     test_time_for_a_search();
 }
