@@ -40,6 +40,7 @@ static int fit(const struct detect_context *context, bool whole, struct hypothes
     struct reading before = {.kinds = 0U};
 
     // The first fit brings all shapes into reach; the second uses them, if there are others now.
+    // Bounded: the second time round the hypothesis is fitted, and the loop ends.
     for (;;) {
         if (reading_take(context, hypothesis, reading) != 0 || reading->evidence.count < 2) {
             return DETECT_E_NO_PAD;

@@ -116,6 +116,7 @@ static bool try_list(const struct detect_context *context, struct pad_estimate *
 {
     struct search_round *round = &context->scratch->round;
 
+    // Bounded: turn rises by one each time, to at most HYPOTHESES.
     while (round->turn < round->list.count) {
         if (work_is_scarce(context->work)) {
             return false;
@@ -167,6 +168,7 @@ static int search_on(const struct detect_context *context, bool known, struct pa
     bool in_time = !round->fitting || go_on_fitting(context, pad, &found);
 
     round->list_frames++;
+    // Bounded: each list costs work, and the next one comes after at most LISTS_MAX of a kind.
     while (in_time && !is_sure(pad, found) && round->kind != SEARCH_LISTS) {
         if (!round->listed || round->list_frames > LIST_FRAMES_MAX) {
             if (work_is_scarce(context->work)) {
@@ -226,7 +228,7 @@ static int follow(const struct detect_context *context, struct pad_estimate *pad
 int detect_pad(const struct landing_record *record, const struct camera *camera, const struct detect_hint *hint,
                uint32_t options, struct detect_scratch *scratch, struct pad_estimate *pad)
 {
-    struct work work = {.done = 0, .granted = true};
+    struct work work = {.done = WORK_OBJECT * (int)record->header.object_count, .granted = true};
     struct grid grid;
 
     collect(record, camera, scratch);

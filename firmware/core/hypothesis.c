@@ -419,6 +419,7 @@ int hypotheses_from_small_rings(const struct hypothesis_source *source, int from
 {
     const int next = list_small_rings(source, from, work, found);
 
+    // Bounded: count falls by one each time.
     while (found->count > CONTRADICTED_MAX && found->list[found->count - 1].error > CONTRADICTED_ERROR) {
         found->count--;
     }

@@ -391,6 +391,7 @@ static int descend(const struct pad_evidence *evidence, const struct camera *cam
     if (progress->steps == 0) {
         *damping = 1e-4;
     }
+    // Bounded: by PAD_FIT_STEPS.
     for (; progress->steps < PAD_FIT_STEPS; progress->steps++) {
         double step[PAD_PARAMETERS];
         struct guess moved;

@@ -8,7 +8,8 @@
 #include <stdbool.h>
 
 // sim/flight/test_frame_time.py holds what a whole frame may take.
-#define WORK_A_FRAME 140000
+#define WORK_A_FRAME 240000
+#define WORK_OBJECT 390 // each object of the record: copied, checked, made a shape and sorted
 #define WORK_LEAST 45000 // with less no list of hypotheses is begun, and no hypothesis tried
 
 #define WORK_POINT 128         // a point of the print, projected and summed up

@@ -51,8 +51,8 @@ def shot(name: str, pose: Pose, look: Look, seed: int) -> Shot:
 
 
 def descent() -> Film:
-    """Three frames of a descent, far apart."""
-    frames = demo_clip(3)
+    """Three frames of a descent, so near to each other that the pad is followed from one to the next."""
+    frames = demo_clip(16)[:3]
     shots = tuple(shot(str(index), frame.pose, frame.look, frame.seed) for index, frame in enumerate(frames))
     return develop(Unit("descent", shots, clip=True))
 
@@ -141,8 +141,9 @@ def test_the_golden_path_takes_the_factor_that_the_firmware_asks_for() -> None:
     film = shadowed(SHOWINGS_MOST)
     answer = golden(film)
     told = factors(answer)
-    assert told[:19] == [128] * 19
-    assert told[19] == 160
+    change = told.index(160)
+    assert set(told[:change]) == {128}
+    assert 19 <= change <= 23, "after 18 frames with thresholds, once the search has looked at all places"
     assert answer.seen[0].pad is not None
     assert told[-1] != 128
     assert [one.pad is not None for one in answer.before[-SHOWINGS_STEADY:]] == [False] + [True] * (SHOWINGS_STEADY - 1)
@@ -187,8 +188,10 @@ def test_a_blinded_clip_is_bridged_by_the_tracker() -> None:
     unit = replace(unit, shots=unit.shots[:16])
     variants = [variant for variant in load_variants() if variant.name in ("production", UNTRACKED)]
     tracked, untracked = ([row.name for row in rows if row.missed] for rows in compare(unit, variants))
-    assert untracked == ["0011", "0012"]
     assert tracked == []
+    # Without the tracker each frame is searched anew, and a search may take two.
+    assert {"0011", "0012"} < set(untracked)
+    assert len(untracked) <= 8
 
 
 def test_a_picture_counts_after_it_has_settled_and_a_clip_frame_by_frame() -> None:
