@@ -25,7 +25,7 @@ static void hardware_writes(void);
 #define ROUNDS_MAX 10
 #define FENCES 2U
 #define LEAST_AREA_PX 30U
-#define WORK_MOST (2 * WORK_A_FRAME)
+#define WORK_MOST (3 * WORK_A_FRAME / 2)
 #define MOST_AREA_PX 150U
 
 // In this order the hardware fills a buffer.
