@@ -27,7 +27,7 @@
 #define DRIFT 4
 
 const struct detect_hint detect_no_hint = {
-    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL, .last_fused = false, .last_ringless = false, .last_doubt = 0.0};
+    .tilt = {.x = 0.0, .y = 0.0, .sigma = 0.25}, .height_m = 0.0, .searching = false, .last = NULL};
 
 static const struct search_round no_round = {.kind = SEARCH_PAIRS};
 
@@ -167,6 +167,7 @@ static int search_on(const struct detect_context *context, bool known, struct pa
     bool found = false;
     bool in_time = !round->fitting || go_on_fitting(context, pad, &found);
 
+    round->under_way = true;
     round->list_frames++;
     // Bounded: each list costs work, and the next one comes after at most LISTS_MAX of a kind.
     while (in_time && !is_sure(pad, found) && round->kind != SEARCH_LISTS) {
@@ -219,9 +220,8 @@ static int follow(const struct detect_context *context, struct pad_estimate *pad
     if (!known || (result == 0 && pad->doubt < last.doubt)) {
         return result;
     }
-    const bool goes_on = result == DETECT_E_GOES_ON || (result == 0 && !(pad->search_doubt > 0.0));
     *pad = last;
-    pad->search_doubt = goes_on ? 0.0 : last.doubt;
+    pad->search_doubt = round->under_way ? 0.0 : last.doubt;
     return 0;
 }
 

@@ -52,6 +52,7 @@ struct hypotheses {
 
 // How far a search has come that takes more than one frame: one list of hypotheses after the other.
 struct search_round {
+    bool under_way; // not all places were looked at
     enum { SEARCH_PAIRS, SEARCH_SMALL_RINGS, SEARCH_RINGS, SEARCH_LISTS } kind;
     bool listed; // there is a list
     struct hypotheses list;

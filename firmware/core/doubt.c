@@ -35,7 +35,7 @@
 #define CUT_DOUBT_MAX 0.5               // the border cuts the square, the rectangle or both
 #define CUT_DOUBT_CLUTTER_MAX 0.2       // the same under other thresholds or in a crowd: the ring in one piece, all fits
 // The same of a pair that all else confirms: attitude and LiDAR, a fit as good as noise allows, nothing that does not
-// belong, and pieces that are arcs of the ring. In 3700 frames without a pad nothing came near.
+// belong, and pieces that are arcs of the ring. docs/accuracy.md: nothing in frames without a pad is that.
 #define CONFIRMED_DOUBT_MAX 1.9
 #define CONFIRMED_MISFIT_MAX 0.95
 #define CONFIRMED_CLUTTER_MAX 0.05

@@ -311,6 +311,18 @@ static bool ring_speck(double x_mm, double y_mm)
     return hypot(x, y) < 12.5;
 }
 
+// Square and rectangle, and so many specks where the ring would be.
+static void paint_specks(const struct scene *scene, int count)
+{
+    scene_clear(&record);
+    scene_paint(&record, scene, scene_square);
+    scene_paint(&record, scene, scene_rectangle);
+    for (int speck = 0; speck < count; speck++) {
+        speck_deg = 15.0 * speck;
+        scene_paint(&record, scene, ring_speck);
+    }
+}
+
 // What all else confirms may lack more of the ring.
 static void test_confirmed(void)
 {
@@ -339,13 +351,7 @@ static void test_confirmed(void)
     scene_paint(&record, &scene, beside_centre);
     CHECK(!find_with(&hint));
     test_case("nor with specks in the ring's place");
-    scene_clear(&record);
-    scene_paint(&record, &scene, scene_square);
-    scene_paint(&record, &scene, scene_rectangle);
-    for (int speck = 0; speck < 18; speck++) {
-        speck_deg = 15.0 * speck;
-        scene_paint(&record, &scene, ring_speck);
-    }
+    paint_specks(&scene, 18);
     hint.searching = false;
     CHECK(find_with(&hint));
     NEAR(pad.ring_share, 0.5, 0.15);
@@ -376,11 +382,7 @@ static void test_traces_of_the_ring(void)
     CHECK(!find_with(&hint));
     hint.tilt.sigma = 0.025;
     test_case("specks are no arc");
-    record.header.object_count--;
-    for (int speck = 0; speck < 6; speck++) {
-        speck_deg = 15.0 * speck;
-        scene_paint(&record, &scene, ring_speck);
-    }
+    paint_specks(&scene, 6);
     CHECK(!find_with(&hint));
 }
 

@@ -7,7 +7,7 @@
 #include "test.h"
 #include "test_scene.h"
 
-#define MOST_A_FRAME (2 * WORK_A_FRAME)
+#define MOST_A_FRAME (5 * WORK_A_FRAME / 4)
 #define TURNS 60 // more frames than a round takes
 
 static struct landing_record record;
