@@ -22,7 +22,8 @@ from sim.world.pose import Truth
 
 WIDTH = 1280
 HEIGHT = 720
-CLIP_FRAMES = 6
+CLIP_FRAMES = 24
+"""As many as the height needs to change by 6 % from one to the next, so that a pad can be followed as in flight."""
 ESTIMATE_OFF_BY = 0.05
 """Some containers tell their length in time only, of which sound has its share; so a little less is no fault."""
 PICTURE_SUFFIXES = (".png", ".jpg", ".jpeg")
