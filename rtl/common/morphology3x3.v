@@ -7,56 +7,60 @@
 
 module morphology3x3 #(
     parameter DILATE     = 0,
+    parameter PPC        = 1,
     parameter MAX_WIDTH  = 1280,
     parameter MAX_HEIGHT = 720
 ) (
-    input  wire        clk,
-    input  wire        rst,
-    input  wire [15:0] cfg_width,
-    input  wire [15:0] cfg_height,
-    input  wire        s_axis_tdata,
-    input  wire        s_axis_tvalid,
-    output wire        s_axis_tready,
-    input  wire        s_axis_tuser,
-    input  wire        s_axis_tlast,
-    output wire        m_axis_tdata,
-    output wire        m_axis_tvalid,
-    input  wire        m_axis_tready,
-    output wire        m_axis_tuser,
-    output wire        m_axis_tlast,
-    output wire        frame_error
+    input  wire           clk,
+    input  wire           rst,
+    input  wire [   15:0] cfg_width,
+    input  wire [   15:0] cfg_height,
+    input  wire [PPC-1:0] s_axis_tdata,
+    input  wire           s_axis_tvalid,
+    output wire           s_axis_tready,
+    input  wire           s_axis_tuser,
+    input  wire           s_axis_tlast,
+    output wire [PPC-1:0] m_axis_tdata,
+    output wire           m_axis_tvalid,
+    input  wire           m_axis_tready,
+    output wire           m_axis_tuser,
+    output wire           m_axis_tlast,
+    output wire           frame_error
 );
 
   localparam CONSTANT = 2;
   // Pixels outside the frame must not decide the result.
   localparam [0:0] OUTSIDE = (DILATE == 0);
 
-  wire       advance;
+  wire             advance;
 
-  wire       column_valid;
-  wire       column_sof;
-  wire       column_first;
-  wire       column_last;
-  wire [2:0] column;
-  wire       reduced_column;
+  wire             column_valid;
+  wire             column_sof;
+  wire             column_first;
+  wire             column_last;
+  wire [3*PPC-1:0] column;
+  wire [  PPC-1:0] reduced_column;
 
-  wire       window_valid;
-  wire       window_sof;
-  wire       window_last;
-  wire [2:0] window;
-  wire       result;
+  wire             window_valid;
+  wire             window_sof;
+  wire             window_last;
+  wire [3*PPC-1:0] window;
+  wire [  PPC-1:0] result;
 
   // The column is reduced before the horizontal half, which then shifts 1 bit, not 3.
+  genvar pixel;
   generate
     if (DILATE != 0 && DILATE != 1) begin : g_parameter
       ERROR_dilate_must_be_0_or_1 error_instance ();
     end
-    if (DILATE == 0) begin : g_erode
-      assign reduced_column = column == 3'b111;
-      assign result = window == 3'b111;
-    end else begin : g_dilate
-      assign reduced_column = column != 3'b000;
-      assign result = window != 3'b000;
+    for (pixel = 0; pixel < PPC; pixel = pixel + 1) begin : g_pixel
+      if (DILATE == 0) begin : g_erode
+        assign reduced_column[pixel] = column[3*pixel+:3] == 3'b111;
+        assign result[pixel] = window[3*pixel+:3] == 3'b111;
+      end else begin : g_dilate
+        assign reduced_column[pixel] = column[3*pixel+:3] != 3'b000;
+        assign result[pixel] = window[3*pixel+:3] != 3'b000;
+      end
     end
   endgenerate
 
@@ -65,6 +69,7 @@ module morphology3x3 #(
       .DATA_WIDTH(1),
       .BORDER    (CONSTANT),
       .VALUE     (OUTSIDE),
+      .PPC       (PPC),
       .MAX_WIDTH (MAX_WIDTH),
       .MAX_HEIGHT(MAX_HEIGHT)
   ) rows (
@@ -90,7 +95,8 @@ module morphology3x3 #(
       .TAPS      (3),
       .DATA_WIDTH(1),
       .BORDER    (CONSTANT),
-      .VALUE     (OUTSIDE)
+      .VALUE     (OUTSIDE),
+      .PPC       (PPC)
   ) cols (
       .clk         (clk),
       .rst         (rst),
@@ -107,7 +113,7 @@ module morphology3x3 #(
   );
 
   axis_skid #(
-      .WIDTH(3)
+      .WIDTH(PPC + 2)
   ) output_slice (
       .clk      (clk),
       .rst      (rst),

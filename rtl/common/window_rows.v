@@ -6,16 +6,18 @@
 //
 // Latency     TAPS/2 lines and 2 cycles from a pixel to the column it is the
 //             lowest real pixel of.
-// Throughput  1 pixel a cycle. After the last pixel of a frame s_axis_tready is 0
-//             for TAPS/2 x width cycles: the lowest rows are flushed.
+// Throughput  1 beat of PPC pixels a cycle. After the last pixel of a frame
+//             s_axis_tready is 0 for TAPS/2 x width / PPC cycles: the lowest rows
+//             are flushed.
 // Memory      (TAPS-1) x DATA_WIDTH bits x MAX_WIDTH, one simple dual port.
 // Border      BORDER, VALUE as in border_mux.
 // Frames      The contract of docs/design.md, by frame_tracker. After a fault no
 //             further column of the frame appears. The columns of a frame come in
 //             raster order; those of a line are never split by bubbles of
 //             this module's own, only by those of its input.
-// Limits      Frames are at least 2 wide (the line memory is written a cycle after
-//             it was read) and, for reflect_101, TAPS/2 + 1 high and wide.
+// Limits      Frames are a multiple of PPC wide, at least 2 beats (the line memory is
+//             written a cycle after it was read) and, for reflect_101, TAPS/2 + 1
+//             pixels high and wide.
 //
 // advance moves the whole module; it must not depend on the outputs. Wire it to
 // the s_ready of the axis_skid behind the arithmetic, and to every register between.
@@ -27,32 +29,53 @@ module window_rows #(
     parameter                   DATA_WIDTH = 8,
     parameter                   BORDER     = 0,
     parameter [DATA_WIDTH-1:0] VALUE      = 0,
+    parameter                   PPC        = 1,
     parameter                   MAX_WIDTH  = 1280,
     parameter                   MAX_HEIGHT = 720
 ) (
-    input  wire                       clk,
-    input  wire                       rst,
-    input  wire [               15:0] cfg_width,
-    input  wire [               15:0] cfg_height,
-    input  wire [     DATA_WIDTH-1:0] s_axis_tdata,
-    input  wire                       s_axis_tvalid,
-    output wire                       s_axis_tready,
-    input  wire                       s_axis_tuser,
-    input  wire                       s_axis_tlast,
-    input  wire                       advance,
-    output reg                        column_valid,
-    output reg                        column_sof,     // first column of a frame
-    output reg                        column_first,   // first column of a line
-    output reg                        column_last,    // last column of a line
-    output reg  [TAPS*DATA_WIDTH-1:0] column,         // topmost pixel in the low bits
-    output wire                       frame_error
+    input  wire                           clk,
+    input  wire                           rst,
+    input  wire [                   15:0] cfg_width,
+    input  wire [                   15:0] cfg_height,
+    input  wire [     PPC*DATA_WIDTH-1:0] s_axis_tdata,   // leftmost pixel in the low bits
+    input  wire                           s_axis_tvalid,
+    output wire                           s_axis_tready,
+    input  wire                           s_axis_tuser,
+    input  wire                           s_axis_tlast,
+    input  wire                           advance,
+    output reg                            column_valid,
+    output reg                            column_sof,     // first columns of a frame
+    output reg                            column_first,   // first columns of a line
+    output reg                            column_last,    // last columns of a line
+    output wire [PPC*TAPS*DATA_WIDTH-1:0] column,         // leftmost in the low bits; in each, its topmost pixel
+    output wire                           frame_error
 );
 
   localparam REACH = TAPS / 2;
-  localparam X_BITS = (MAX_WIDTH > 1) ? $clog2(MAX_WIDTH) : 1;
+  localparam WORD = PPC * DATA_WIDTH;
+  localparam PPC_LOG2 = $clog2(PPC);
+  localparam MAX_BEATS = MAX_WIDTH / PPC;
+  localparam X_BITS = (MAX_BEATS > 1) ? $clog2(MAX_BEATS) : 1;
   localparam REFLECT_101 = 1;
   localparam MIN_SIZE = (BORDER == REFLECT_101) ? REACH + 1 : 1;
-  localparam MIN_WIDTH = (MIN_SIZE < 2) ? 2 : MIN_SIZE;
+  localparam MIN_BEATS = (MIN_SIZE <= 2 * PPC) ? 2 : (MIN_SIZE + PPC - 1) / PPC;
+
+  // Beats a line. A width that is no multiple of PPC is refused like a width of 0.
+  wire [15:0] cfg_beats;
+
+  generate
+    if (PPC != 1 && PPC != 2 && PPC != 4) begin : g_ppc
+      ERROR_ppc_must_be_1_or_2_or_4 error_instance ();
+    end
+    if (MAX_WIDTH % PPC != 0) begin : g_multiple
+      ERROR_max_width_must_be_a_multiple_of_ppc error_instance ();
+    end
+    if (PPC == 1) begin : g_single
+      assign cfg_beats = cfg_width;
+    end else begin : g_several
+      assign cfg_beats = (cfg_width[PPC_LOG2-1:0] == {PPC_LOG2{1'b0}}) ? cfg_width >> PPC_LOG2 : 16'd0;
+    end
+  endgenerate
 
   wire        accept;
   wire        sof;
@@ -71,14 +94,14 @@ module window_rows #(
   assign s_axis_tready = advance && !flush_reg;
 
   frame_tracker #(
-      .MIN_WIDTH (MIN_WIDTH),
+      .MIN_WIDTH (MIN_BEATS),
       .MIN_HEIGHT(MIN_SIZE),
-      .MAX_WIDTH (MAX_WIDTH),
+      .MAX_WIDTH (MAX_BEATS),
       .MAX_HEIGHT(MAX_HEIGHT)
   ) tracker (
       .clk        (clk),
       .rst        (rst),
-      .cfg_width  (cfg_width),
+      .cfg_width  (cfg_beats),
       .cfg_height (cfg_height),
       .beat       (s_axis_tvalid && s_axis_tready),
       .beat_user  (s_axis_tuser),
@@ -132,34 +155,35 @@ module window_rows #(
 
   // Stage 1: the lines above the pixel come from memory and, moved up by one, go back.
   (* ram_style = "block" *)
-  reg [(TAPS-1)*DATA_WIDTH-1:0] lines[0:MAX_WIDTH-1];
-  reg [(TAPS-1)*DATA_WIDTH-1:0] above_reg;
-  reg [         DATA_WIDTH-1:0] pixel_reg;
-  reg [             X_BITS-1:0] x_reg;
-  reg [              REACH-1:0] top_inside_reg;
-  reg [              REACH-1:0] bottom_inside_reg;
-  reg                           fed_reg;
-  reg                           valid_reg;
-  reg                           sof_reg;
-  reg                           first_reg;
-  reg                           last_reg;
+  reg  [(TAPS-1)*WORD-1:0] lines[0:MAX_BEATS-1];
+  reg  [(TAPS-1)*WORD-1:0] above_reg;
+  reg  [         WORD-1:0] pixel_reg;
+  reg  [       X_BITS-1:0] x_reg;
+  reg  [        REACH-1:0] top_inside_reg;
+  reg  [        REACH-1:0] bottom_inside_reg;
+  reg                      fed_reg;
+  reg                      valid_reg;
+  reg                      sof_reg;
+  reg                      first_reg;
+  reg                      last_reg;
+  reg  [    TAPS*WORD-1:0] rows_reg;  // topmost row of the beat in the low bits
 
-  wire [TAPS*DATA_WIDTH-1:0] raw = {pixel_reg, above_reg};
-  wire [TAPS*DATA_WIDTH-1:0] resolved;
+  wire [    TAPS*WORD-1:0] raw = {pixel_reg, above_reg};
+  wire [    TAPS*WORD-1:0] resolved;
 
   always @(posedge clk) begin
     if (advance) above_reg <= lines[feed_x];
   end
 
   always @(posedge clk) begin
-    if (advance && fed_reg) lines[x_reg] <= raw[TAPS*DATA_WIDTH-1:DATA_WIDTH];
+    if (advance && fed_reg) lines[x_reg] <= raw[TAPS*WORD-1:WORD];
   end
 
   border_mux #(
       .TAPS      (TAPS),
-      .DATA_WIDTH(DATA_WIDTH),
+      .DATA_WIDTH(WORD),
       .BORDER    (BORDER),
-      .VALUE     (VALUE)
+      .VALUE     ({PPC{VALUE}})
   ) rows_border (
       .taps    (raw),
       .low_ok  (top_inside_reg),
@@ -184,7 +208,7 @@ module window_rows #(
       column_sof        <= sof_reg;
       column_first      <= first_reg;
       column_last       <= last_reg;
-      column            <= resolved;
+      rows_reg          <= resolved;
     end
 
     if (rst) begin
@@ -193,6 +217,15 @@ module window_rows #(
       column_valid <= 1'b0;
     end
   end
+
+  genvar pixel, row;
+  generate
+    for (pixel = 0; pixel < PPC; pixel = pixel + 1) begin : g_pixel
+      for (row = 0; row < TAPS; row = row + 1) begin : g_row
+        assign column[(pixel*TAPS+row)*DATA_WIDTH+:DATA_WIDTH] = rows_reg[row*WORD+pixel*DATA_WIDTH+:DATA_WIDTH];
+      end
+    end
+  endgenerate
 
 endmodule
 

@@ -2,67 +2,81 @@
 // Binary median 5x5, equal to cv2.medianBlur(5): 1 where at least 13 of the 25
 // pixels around are 1.
 //
-// Latency     2 lines, 2 pixels and 6 cycles.
-// Throughput  1 pixel a cycle; s_axis_tready is 0 for 2 x width cycles after the
-//             last pixel of a frame.
+// Latency     2 lines, 2 pixels and 6 cycles; with PPC above 1, 1 beat in place of the pixels.
+// Throughput  1 beat of PPC pixels a cycle; s_axis_tready is 0 for 2 x width / PPC
+//             cycles after the last pixel of a frame.
 // Borders     replicate.
 // Rounding    none; one bit cannot overflow.
 // Frames      the contract of docs/design.md.
-// Limits      2x1 to MAX_WIDTH x MAX_HEIGHT.
+// Limits      2x1 to MAX_WIDTH x MAX_HEIGHT; with PPC above 1, at least 2 x PPC wide and
+//             a multiple of PPC.
 
 `default_nettype none
 
 module median5x5 #(
+    parameter PPC        = 1,     // pixels a beat, the leftmost in the low bits
     parameter MAX_WIDTH  = 1280,
     parameter MAX_HEIGHT = 720
 ) (
-    input  wire        clk,
-    input  wire        rst,
-    input  wire [15:0] cfg_width,
-    input  wire [15:0] cfg_height,
-    input  wire        s_axis_tdata,
-    input  wire        s_axis_tvalid,
-    output wire        s_axis_tready,
-    input  wire        s_axis_tuser,
-    input  wire        s_axis_tlast,
-    output wire        m_axis_tdata,
-    output wire        m_axis_tvalid,
-    input  wire        m_axis_tready,
-    output wire        m_axis_tuser,
-    output wire        m_axis_tlast,
-    output wire        frame_error
+    input  wire           clk,
+    input  wire           rst,
+    input  wire [   15:0] cfg_width,
+    input  wire [   15:0] cfg_height,
+    input  wire [PPC-1:0] s_axis_tdata,
+    input  wire           s_axis_tvalid,
+    output wire           s_axis_tready,
+    input  wire           s_axis_tuser,
+    input  wire           s_axis_tlast,
+    output wire [PPC-1:0] m_axis_tdata,
+    output wire           m_axis_tvalid,
+    input  wire           m_axis_tready,
+    output wire           m_axis_tuser,
+    output wire           m_axis_tlast,
+    output wire           frame_error
 );
 
   localparam REPLICATE = 0;
 
-  wire        advance;
+  wire              advance;
 
-  wire       column_valid;
-  wire       column_sof;
-  wire       column_first;
-  wire       column_last;
-  wire [4:0] column;
+  wire              column_valid;
+  wire              column_sof;
+  wire              column_first;
+  wire              column_last;
+  wire [ 5*PPC-1:0] column;
+  wire [ 3*PPC-1:0] ones_in_column;
 
-  wire       window_valid;
-  wire       window_sof;
-  wire       window_last;
-  wire [14:0] window;
+  wire              window_valid;
+  wire              window_sof;
+  wire              window_last;
+  wire [15*PPC-1:0] window;
+  wire [   PPC-1:0] median;
+
+  reg  [   PPC-1:0] median_reg;
+  reg               median_valid_reg;
+  reg               median_sof_reg;
+  reg               median_last_reg;
 
   // The column is counted before the horizontal half, which then shifts 3 bits, not 5.
-  wire [2:0] ones_in_column = {2'b0, column[0]} + {2'b0, column[1]} + {2'b0, column[2]} +
-      {2'b0, column[3]} + {2'b0, column[4]};
-  wire [4:0] ones = {2'b0, window[2:0]} + {2'b0, window[5:3]} + {2'b0, window[8:6]} +
-      {2'b0, window[11:9]} + {2'b0, window[14:12]};
+  genvar pixel;
+  generate
+    for (pixel = 0; pixel < PPC; pixel = pixel + 1) begin : g_pixel
+      wire [ 4:0] rows = column[5*pixel+:5];
+      wire [14:0] counts = window[15*pixel+:15];
+      wire [ 4:0] ones = {2'b0, counts[2:0]} + {2'b0, counts[5:3]} + {2'b0, counts[8:6]} +
+          {2'b0, counts[11:9]} + {2'b0, counts[14:12]};
 
-  reg        median_reg;
-  reg        median_valid_reg;
-  reg        median_sof_reg;
-  reg        median_last_reg;
+      assign ones_in_column[3*pixel+:3] = {2'b0, rows[0]} + {2'b0, rows[1]} + {2'b0, rows[2]} +
+          {2'b0, rows[3]} + {2'b0, rows[4]};
+      assign median[pixel] = ones >= 5'd13;
+    end
+  endgenerate
 
   window_rows #(
       .TAPS      (5),
       .DATA_WIDTH(1),
       .BORDER    (REPLICATE),
+      .PPC       (PPC),
       .MAX_WIDTH (MAX_WIDTH),
       .MAX_HEIGHT(MAX_HEIGHT)
   ) rows (
@@ -87,7 +101,8 @@ module median5x5 #(
   window_cols #(
       .TAPS      (5),
       .DATA_WIDTH(3),
-      .BORDER    (REPLICATE)
+      .BORDER    (REPLICATE),
+      .PPC       (PPC)
   ) cols (
       .clk         (clk),
       .rst         (rst),
@@ -105,7 +120,7 @@ module median5x5 #(
 
   always @(posedge clk) begin
     if (advance) begin
-      median_reg       <= ones >= 5'd13;
+      median_reg       <= median;
       median_valid_reg <= window_valid;
       median_sof_reg   <= window_sof;
       median_last_reg  <= window_last;
@@ -115,7 +130,7 @@ module median5x5 #(
   end
 
   axis_skid #(
-      .WIDTH(3)
+      .WIDTH(PPC + 2)
   ) output_slice (
       .clk      (clk),
       .rst      (rst),

@@ -5,16 +5,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tb.common.stream import Beat
+from tb.common.stream import Beat, unpack
 
 
 @dataclass
 class SentFrame:
-    """Pixels of one frame up to its fault; complete if there was none."""
+    """Pixels of one frame up to its fault, `ppc` a beat; complete if there was none."""
 
     width: int
     height: int
     pixels: list[int] = field(default_factory=list)
+    ppc: int = 1
 
     @property
     def complete(self) -> bool:
@@ -23,8 +24,8 @@ class SentFrame:
 
     @property
     def last_expected(self) -> int:
-        """`tlast` that the next pixel must have."""
-        return int(len(self.pixels) % self.width == self.width - 1)
+        """`tlast` that the next beat must have."""
+        return int(len(self.pixels) % self.width == self.width - self.ppc)
 
     def image(self) -> np.ndarray:
         """Return the frame as an integer array (height, width), missing pixels 0."""
@@ -47,11 +48,11 @@ class SizeLimits:
         return self.min_width <= width <= self.max_width and self.min_height <= height <= self.max_height
 
 
-def sent_frames(beats: list[Beat], limits: SizeLimits) -> tuple[list[SentFrame], int]:
+def sent_frames(beats: list[Beat], limits: SizeLimits, bits: int = 0, ppc: int = 1) -> tuple[list[SentFrame], int]:
     """Return the frames in the beats, in order, and the number of `frame_error` pulses.
 
     Frames whose first pixel is already faulty are left out: nothing of them may appear. `size` of the latest beat that
-    has one is the configured size.
+    has one is the configured size. A beat holds `ppc` pixels of `bits` bits; a width is a multiple of that many.
     """
     frames: list[SentFrame] = []
     errors = 0
@@ -62,12 +63,12 @@ def sent_frames(beats: list[Beat], limits: SizeLimits) -> tuple[list[SentFrame],
         size = beat.size or size
         if beat.user:
             early = current is not None and not current.complete
-            current = SentFrame(*size)
-            good = limits.allow(*size) and beat.last == int(size[0] == 1)
+            current = SentFrame(*size, ppc=ppc)
+            good = limits.allow(*size) and size[0] % ppc == 0 and beat.last == int(size[0] == ppc)
             errors += early or not good
             silent = not good
             if good:
-                current.pixels.append(beat.data)
+                current.pixels += unpack([beat.data], bits, ppc)
                 frames.append(current)
             else:
                 current = None
@@ -77,5 +78,5 @@ def sent_frames(beats: list[Beat], limits: SizeLimits) -> tuple[list[SentFrame],
             errors += 1
             current, silent = None, True
         else:
-            current.pixels.append(beat.data)
+            current.pixels += unpack([beat.data], bits, ppc)
     return frames, errors

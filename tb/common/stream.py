@@ -6,7 +6,7 @@ able to send lines without an end, change `cfg_width` together with a start of f
 All classes work for any width of `tdata`; `tuser` and `tlast` are optional.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
 from typing import Any, NamedTuple
@@ -44,13 +44,30 @@ class Taken:
     cycle: int
 
 
-def frame_beats(frame: np.ndarray) -> list[Beat]:
-    """Return the beats of one frame: integer array (height, width), one value a beat."""
-    height, width = frame.shape
-    values = frame.ravel().tolist()
+def pack(values: Sequence[int], bits: int, ppc: int) -> list[int]:
+    """Put `ppc` values of `bits` bits side by side into each word, the first in the low bits."""
+    if ppc == 1:
+        return list(values)
     return [
-        Beat(value, int(index == 0), int(index % width == width - 1), (width, height) if index == 0 else None)
-        for index, value in enumerate(values)
+        sum(value << bits * place for place, value in enumerate(values[first : first + ppc]))
+        for first in range(0, len(values), ppc)
+    ]
+
+
+def unpack(words: Sequence[int], bits: int, ppc: int) -> list[int]:
+    """Take apart what `pack` put together."""
+    if ppc == 1:
+        return list(words)
+    return [word >> bits * place & ((1 << bits) - 1) for word in words for place in range(ppc)]
+
+
+def frame_beats(frame: np.ndarray, bits: int = 0, ppc: int = 1) -> list[Beat]:
+    """Return the beats of one frame: integer array (height, width) of `bits` bits, `ppc` values a beat."""
+    height, width = frame.shape
+    line = width // ppc
+    return [
+        Beat(word, int(index == 0), int(index % line == line - 1), (width, height) if index == 0 else None)
+        for index, word in enumerate(pack(frame.ravel().tolist(), bits, ppc))
     ]
 
 

@@ -9,8 +9,9 @@ from tb.common.contract import SizeLimits
 from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, named, run_reset, run_scene
 from tb.common.run import parameter
 
-LIMITS = SizeLimits(2, 1, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
-CORE = VideoCore(golden=erode3x3, bits_in=1, reach=1, limits=LIMITS)
+PPC = parameter("PPC", 1)
+LIMITS = SizeLimits(max(2, 2 * PPC), 1, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
+CORE = VideoCore(golden=erode3x3, bits_in=1, reach=1, limits=LIMITS, ppc=PPC)
 
 
 @cocotb.test()

@@ -12,8 +12,9 @@ from tb.common.contract import SizeLimits
 from tb.common.matrix import SCENES, STALLS, VideoCore, check_latency, named, run_reset, run_scene, start
 from tb.common.run import parameter, where
 
-LIMITS = SizeLimits(3, 3, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
-CORE = VideoCore(golden=gaussian5x5, bits_in=8, reach=2, limits=LIMITS)
+PPC = parameter("PPC", 1)
+LIMITS = SizeLimits(max(3, 2 * PPC), 3, parameter("MAX_WIDTH", 1280), parameter("MAX_HEIGHT", 720))
+CORE = VideoCore(golden=gaussian5x5, bits_in=8, reach=2, limits=LIMITS, ppc=PPC)
 
 
 @cocotb.test()

@@ -12,10 +12,11 @@ from tb.common.compare import check_frame
 from tb.common.figures import page_figures
 from tb.common.matrix import STALLS, named, start
 from tb.common.patterns import random_frame
-from tb.common.run import where
-from tb.common.stream import Beat, StreamBench, frame_beats, split_frames
+from tb.common.run import parameter, where
+from tb.common.stream import Beat, StreamBench, frame_beats, pack, split_frames, unpack
 
 (LATENCY,) = page_figures("rgb2gray")
+PPC = parameter("PPC", 1)
 
 
 def gray_of(packed: np.ndarray) -> np.ndarray:
@@ -50,13 +51,13 @@ def corner_frame() -> np.ndarray:
 async def frames_back_to_back(dut: HierarchyObject, stall: str) -> None:
     rng = Random(getrandbits(64))
     bench = await start(dut, rng, stall)
-    frames = [random_frame(rng, rng.randint(1, 19), rng.randint(1, 9), 24) for _ in range(6)]
+    frames = [random_frame(rng, PPC * rng.randint(1, 19), rng.randint(1, 9), 24) for _ in range(6)]
     frames.append(corner_frame())
-    await send(bench, [beat for frame in frames for beat in frame_beats(frame)])
+    await send(bench, [beat for frame in frames for beat in frame_beats(frame, 24, PPC)])
     received = split_frames(bench.sink.taken)
     assert len(received) == len(frames), f"{len(received)} frames came, expected {len(frames)}; {where()}"
     for index, (beats, frame) in enumerate(zip(received, frames, strict=True)):
-        check_frame(beats, gray_of(frame), f"frame {index}")
+        check_frame(beats, gray_of(frame), f"frame {index}", bits=8, ppc=PPC)
 
 
 @cocotb.test()
@@ -65,10 +66,11 @@ async def markers_travel_with_their_pixel(dut: HierarchyObject, stall: str) -> N
     """Any sequence of markers, legal or not, leaves as it came."""
     rng = Random(getrandbits(64))
     bench = await start(dut, rng, stall)
-    beats = [Beat(rng.getrandbits(24), rng.getrandbits(1), rng.getrandbits(1)) for _ in range(500)]
+    beats = [Beat(rng.getrandbits(24 * PPC), rng.getrandbits(1), rng.getrandbits(1)) for _ in range(500)]
     await send(bench, beats)
     got = [(beat.data, beat.user, beat.last) for beat in bench.sink.taken]
-    expected = [(int(gray_of(np.array(beat.data))), beat.user, beat.last) for beat in beats]
+    grays = gray_of(np.array(unpack([beat.data for beat in beats], 24, PPC))).tolist()
+    expected = [(gray, beat.user, beat.last) for gray, beat in zip(pack(grays, 8, PPC), beats, strict=True)]
     assert len(got) == len(expected), f"{len(got)} beats came, expected {len(expected)}; {where()}"
     for index, (one, other) in enumerate(zip(got, expected, strict=True)):
         assert one == other, f"beat {index}: expected (gray, tuser, tlast) {other}, got {one}; {where()}"
@@ -77,11 +79,11 @@ async def markers_travel_with_their_pixel(dut: HierarchyObject, stall: str) -> N
 @cocotb.test()
 async def latency(dut: HierarchyObject) -> None:
     bench = await start(dut, Random(getrandbits(64)), "full_speed")
-    await send(bench, frame_beats(random_frame(bench.rng, 16, 4, 24)))
+    await send(bench, frame_beats(random_frame(bench.rng, 16 * PPC, 4, 24), 24, PPC))
     delays = {out.cycle - into.cycle for into, out in zip(bench.input.taken, bench.sink.taken, strict=True)}
     assert delays == {LATENCY}, f"latencies {delays}, documented {LATENCY}; {where()}"
     cycles = bench.input.taken[-1].cycle - bench.input.taken[0].cycle
-    assert cycles == 63, f"64 pixels took {cycles + 1} cycles; {where()}"
+    assert cycles == 63, f"64 beats took {cycles + 1} cycles; {where()}"
 
 
 @cocotb.test()
@@ -90,9 +92,9 @@ async def reset_drops_what_is_inside(dut: HierarchyObject, stall: str) -> None:
     rng = Random(getrandbits(64))
     bench = await start(dut, rng, stall)
     for _ in range(10):
-        bench.source.send_beats(frame_beats(random_frame(rng, 20, 10, 24)))
+        bench.source.send_beats(frame_beats(random_frame(rng, 20, 10, 24), 24, PPC))
         await bench.cycles(rng.randint(1, 100))
         await bench.reset(rng.randint(1, 3))
-        frame = random_frame(rng, 5, 3, 24)
-        await send(bench, frame_beats(frame))
-        check_frame(bench.sink.taken, gray_of(frame), "frame after reset")
+        frame = random_frame(rng, 5 * PPC, 3, 24)
+        await send(bench, frame_beats(frame, 24, PPC))
+        check_frame(bench.sink.taken, gray_of(frame), "frame after reset", bits=8, ppc=PPC)
