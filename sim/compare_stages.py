@@ -24,7 +24,7 @@ from golden.result_writer import record as golden_record
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.frames import open_frames
 from sim.cosim.build import ROOT, build_stages
-from sim.cosim.frame_list import FrameList, read_frame_list, write_frame_list
+from sim.cosim.frame_list import FULL_HD, HD, FrameList, read_frame_list, write_frame_list
 from sim.cosim.result import Frame, read_result
 
 ALTITUDE_MM = 1500
@@ -93,8 +93,10 @@ def ctrl_value(settings: Settings) -> int:
     return CTRL_ENABLE_MASK | order
 
 
-def verilated(frames: FrameList, settings: Settings, out_dir: Path, memory: Memory | None = None) -> tuple[int, float]:
-    """A `Simulate` of the verilated model; its memory answers at once by default."""
+def verilated(
+    frames: FrameList, settings: Settings, out_dir: Path, memory: Memory | None = None, full_hd: bool = False
+) -> tuple[int, float]:
+    """A `Simulate` of the verilated model, as 1080p60 if wanted; its memory answers at once by default."""
     memory = memory or Memory()
     arguments = {
         "frames": frames.path,
@@ -106,8 +108,9 @@ def verilated(frames: FrameList, settings: Settings, out_dir: Path, memory: Memo
         "random-memory": int(memory.random),
         "seed": memory.seed,
         "taps": 1,
+        "full-hd": int(full_hd),
     }
-    command = [str(build_stages()), *(f"{key}={value}" for key, value in arguments.items())]
+    command = [str(build_stages(full_hd)), *(f"{key}={value}" for key, value in arguments.items())]
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if run.returncode != 0:
         raise StageMismatchError(run.stderr.strip().removeprefix("touchdown: "))
@@ -248,6 +251,7 @@ def compare(
     out_dir: Path,
     settings: Settings | None = None,
     simulate: Simulate = verilated,
+    most: tuple[int, int] = HD,
 ) -> Report:
     """Show frames back to back and compare every stage.
 
@@ -256,6 +260,7 @@ def compare(
         out_dir: folder for the streams as files; made if needed.
         settings: registers; default those of the firmware.
         simulate: what runs the RTL; default the verilated model.
+        most: width and height for which that is built.
 
     Raises:
         StageMismatchError: a stage or a record differs; the message names the first place in the order of the data.
@@ -263,10 +268,15 @@ def compare(
     """
     settings = settings or Settings()
     out_dir.mkdir(parents=True, exist_ok=True)
-    shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM))
+    shown = write_frame_list(out_dir / "frames.tdf", frames, itertools.repeat(ALTITUDE_MM), most=most)
     clocks, seconds = simulate(shown, settings, out_dir)
     objects = check_run(shown, out_dir, settings)
     return Report(shown.shown, shown.shown * shown.width * shown.height, objects, clocks, seconds)
+
+
+def full_hd(frames: Iterable[np.ndarray], out_dir: Path, settings: Settings | None = None) -> Report:
+    """`compare` with landing_core built for 1920x1080, clocks and timing of 1080p60."""
+    return compare(frames, out_dir, settings, partial(verilated, full_hd=True), FULL_HD)
 
 
 def check_run(shown: FrameList, out_dir: Path, settings: Settings) -> int:

@@ -11,7 +11,7 @@ import pytest
 
 from golden.chain import PAPER, Settings
 from golden.generated.landing_regs import HEADER_DTYPE
-from sim.compare_stages import Memory, StageMismatchError, check_run, compare, verilated
+from sim.compare_stages import Memory, StageMismatchError, check_run, compare, full_hd, verilated
 from sim.cosim.frame_list import FrameList
 from sim.cosim.result import read_result
 from sim.world.clip import demo_clip, images
@@ -61,6 +61,18 @@ def test_720p_back_to_back(tmp_path: Path) -> None:
         assert 6 * 1280 * CLK_NS < latency_ns < 80_000, (
             f"frame {frame.index}: {latency_ns} ns from last pixel to record"
         )
+
+
+@pytest.mark.full
+def test_1080p_back_to_back(tmp_path: Path) -> None:
+    """At 148.5 MHz and 60 frames a second, landing_core at 150 MHz: a view of the pad and textures."""
+    view = cv2.resize(next(iter(images(demo_clip(2)))), (1920, 1080), interpolation=cv2.INTER_CUBIC)
+    report = full_hd([view, *(textured(seed, 1920, 1080) for seed in range(2))], tmp_path, Settings(min_area=1))
+    print(report)
+    assert report.pixels == 3 * 1920 * 1080
+    assert report.objects > 512
+    first, second = (frame.first_pixel_ns for frame in read_result(tmp_path, 0).frames[:2])
+    assert abs(second - first - 1e9 / 60) < 100, f"a frame every {second - first} ns"
 
 
 @pytest.mark.full

@@ -54,11 +54,12 @@ module window_rows #(
   localparam REACH = TAPS / 2;
   localparam WORD = PPC * DATA_WIDTH;
   localparam PPC_LOG2 = $clog2(PPC);
-  localparam MAX_BEATS = MAX_WIDTH / PPC;
+  localparam MAX_BEATS = MAX_WIDTH / (PPC > 0 ? PPC : 1);
   localparam X_BITS = (MAX_BEATS > 1) ? $clog2(MAX_BEATS) : 1;
   localparam REFLECT_101 = 1;
   localparam MIN_SIZE = (BORDER == REFLECT_101) ? REACH + 1 : 1;
-  localparam MIN_BEATS = (MIN_SIZE <= 2 * PPC) ? 2 : (MIN_SIZE + PPC - 1) / PPC;
+  // One pixel a beat is the only case in which two beats can be too narrow a frame.
+  localparam MIN_BEATS = (MIN_SIZE <= 2 * PPC) ? 2 : MIN_SIZE;
 
   // Beats a line. A width that is no multiple of PPC is refused like a width of 0.
   wire [15:0] cfg_beats;
@@ -67,7 +68,7 @@ module window_rows #(
     if (PPC != 1 && PPC != 2 && PPC != 4) begin : g_ppc
       ERROR_ppc_must_be_1_or_2_or_4 error_instance ();
     end
-    if (MAX_WIDTH % PPC != 0) begin : g_multiple
+    if (MAX_BEATS * PPC != MAX_WIDTH) begin : g_multiple
       ERROR_max_width_must_be_a_multiple_of_ppc error_instance ();
     end
     if (PPC == 1) begin : g_single

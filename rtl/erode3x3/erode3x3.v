@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary erode 3x3, equal to cv2.erode with a 3x3 box: 1 where all 9 pixels around are 1.
 //
-// Latency     1 line, 1 pixel and 5 cycles; with PPC above 1, 1 beat in place of the pixel.
-// Throughput  1 beat of PPC pixels a cycle; s_axis_tready is 0 for width / PPC
+// Latency     1 line, 1 pixel and 5 cycles; with more pixels a beat, a beat in place of the pixel.
+// Throughput  a beat of PPC pixels a cycle; s_axis_tready is 0 for width / PPC
 //             cycles after the last pixel of a frame.
 // Borders     pixels outside the frame do not count (they read as 1).
 // Rounding    none; one bit cannot overflow.

@@ -3,8 +3,8 @@
 //
 //   out = (sum over i, j of k[i] k[j] p[i][j] + 32768) >> 16,  k = 1, 48, 158, 48, 1
 //
-// Latency     2 lines, 2 pixels and 14 cycles; with PPC above 1, 1 beat in place of the pixels.
-// Throughput  1 beat of PPC pixels a cycle; s_axis_tready is 0 for 2 x width / PPC
+// Latency     2 lines, 2 pixels and 14 cycles; with more pixels a beat, a beat in place of the pixels.
+// Throughput  a beat of PPC pixels a cycle; s_axis_tready is 0 for 2 x width / PPC
 //             cycles after the last pixel of a frame.
 // Borders     reflect_101 (the default of cv2).
 // Rounding    half up, once, at the end. The weights sum to 2^16: no overflow.

@@ -2,8 +2,8 @@
 // Binary median 5x5, equal to cv2.medianBlur(5): 1 where at least 13 of the 25
 // pixels around are 1.
 //
-// Latency     2 lines, 2 pixels and 6 cycles; with PPC above 1, 1 beat in place of the pixels.
-// Throughput  1 beat of PPC pixels a cycle; s_axis_tready is 0 for 2 x width / PPC
+// Latency     2 lines, 2 pixels and 6 cycles; with more pixels a beat, a beat in place of the pixels.
+// Throughput  a beat of PPC pixels a cycle; s_axis_tready is 0 for 2 x width / PPC
 //             cycles after the last pixel of a frame.
 // Borders     replicate.
 // Rounding    none; one bit cannot overflow.

@@ -4,7 +4,7 @@
 //   gray = (9798 R + 19235 G + 3735 B + 16384) >> 15
 //
 // Latency     4 cycles.
-// Throughput  1 beat of PPC pixels a cycle, no stalls of its own.
+// Throughput  a beat of PPC pixels a cycle, no stalls of its own.
 // Rounding    half up; the weights sum to 2^15, so the result cannot overflow.
 // Borders     none: pointwise. tuser and tlast travel with their pixel, so a
 //             malformed frame leaves as it came; the next core judges it.

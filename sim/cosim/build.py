@@ -17,6 +17,7 @@ FLIGHT_PLUGIN = BUILD / "touchdown-flight-plugin.so"
 METER_PLUGIN = BUILD / "touchdown-meter-plugin.so"
 HOST = BUILD / "touchdown-host"
 STAGES = BUILD / "landing-stages"
+FULL_HD_STAGES = BUILD / "full-hd-landing-stages"
 ELF = ROOT / "build" / "firmware" / "touchdown.elf"
 
 
@@ -100,10 +101,10 @@ def build_host() -> Path:
     return HOST
 
 
-def build_stages() -> Path:
-    """The program that writes what passes between the stages of landing_core."""
-    _build("stages")
-    return STAGES
+def build_stages(full_hd: bool = False) -> Path:
+    """The program that writes what passes between the stages of landing_core; built for 1920x1080 if wanted."""
+    _build("full-hd-stages" if full_hd else "stages")
+    return FULL_HD_STAGES if full_hd else STAGES
 
 
 def build_firmware(ground_baud: int | None = None) -> Path:

@@ -6,6 +6,8 @@ BUILD := build/cosim
 MODEL := $(BUILD)/model
 # landing_core with the stand-ins of the stages from camera to objects.
 FLIGHT_MODEL := $(BUILD)/flight-model
+# landing_core for 1920x1080; stages_main.cpp knows its clocks.
+FULL_HD_MODEL := $(BUILD)/full-hd-model
 STAND_INS := $(wildcard sim/verilated/stand_ins/*.v)
 STOOD_IN_FOR := $(patsubst sim/verilated/stand_ins/%,\%/%,$(STAND_INS))
 FLIGHT_RTL = $(STAND_INS) $(filter-out $(STOOD_IN_FOR),$(RTL))
@@ -21,16 +23,18 @@ LDLIBS := -lpthread
 SHARED := frame_list video_source axi_memory stage_taps landing_model
 SHARED_OBJECTS := $(SHARED:%=$(BUILD)/obj/%.o)
 FLIGHT_OBJECTS := $(addprefix $(BUILD)/flight-obj/,qemu_flight.o qemu_machine.o run_log.o axi_memory.o landing_model.o)
+FULL_HD_OBJECTS := $(addprefix $(BUILD)/full-hd-obj/,stages_main.o run_log.o $(SHARED:%=%.o))
 FIRMWARE_LIBRARY := build/firmware/libtouchdown.a
 MODEL_LIBS := $(MODEL)/libVlanding_core.a $(MODEL)/libverilated.a
 
 # verilator itself sees to it that unchanged sources change nothing.
-.PHONY: plugin flight-plugin meter-plugin host stages
+.PHONY: plugin flight-plugin meter-plugin host stages full-hd-stages
 plugin: $(BUILD)/touchdown-plugin.so
 flight-plugin: $(BUILD)/touchdown-flight-plugin.so
 meter-plugin: $(BUILD)/touchdown-meter-plugin.so
 host: $(BUILD)/touchdown-host
 stages: $(BUILD)/landing-stages
+full-hd-stages: $(BUILD)/full-hd-landing-stages
 
 $(MODEL)/Vlanding_core.mk: $(RTL) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wildcard rtl/generated/*.vh)
 	@mkdir -p $(@D)
@@ -40,6 +44,11 @@ $(MODEL)/Vlanding_core.mk: $(RTL) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wi
 $(FLIGHT_MODEL)/Vlanding_core.mk: $(RTL) $(STAND_INS) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wildcard rtl/generated/*.vh)
 	@mkdir -p $(@D)
 	$(VERILATE) --Mdir $(FLIGHT_MODEL) -GCLK_PER_US=2 sim/verilated/taps.vlt $(FLIGHT_RTL)
+	@touch $@
+
+$(FULL_HD_MODEL)/Vlanding_core.mk: $(RTL) sim/verilated/taps.vlt sim/cosim/cosim.mk $(wildcard rtl/generated/*.vh)
+	@mkdir -p $(@D)
+	$(VERILATE) --Mdir $(FULL_HD_MODEL) -GMAX_WIDTH=1920 -GMAX_HEIGHT=1080 -GCLK_PER_US=150 sim/verilated/taps.vlt $(RTL)
 	@touch $@
 
 %/libVlanding_core.a %/libverilated.a: %/Vlanding_core.mk
@@ -63,6 +72,14 @@ $(BUILD)/flight-obj/%.o: sim/cosim/%.cpp $(FLIGHT_MODEL)/Vlanding_core.mk
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) -isystem $(FLIGHT_MODEL) -c -o $@ $<
 
+$(BUILD)/full-hd-obj/%.o: sim/verilated/%.cpp $(FULL_HD_MODEL)/Vlanding_core.mk
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -isystem $(FULL_HD_MODEL) -c -o $@ $<
+
+$(BUILD)/full-hd-obj/%.o: sim/cosim/%.cpp $(FULL_HD_MODEL)/Vlanding_core.mk
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -isystem $(FULL_HD_MODEL) -c -o $@ $<
+
 $(BUILD)/touchdown-plugin.so: $(BUILD)/obj/qemu_frames.o $(BUILD)/obj/qemu_machine.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -shared -Wl,--exclude-libs,ALL -o $@ $^ $(LDLIBS)
 
@@ -85,4 +102,7 @@ $(BUILD)/touchdown-host: $(BUILD)/obj/host_main.o $(BUILD)/obj/run_log.o $(SHARE
 $(BUILD)/landing-stages: $(BUILD)/obj/stages_main.o $(BUILD)/obj/run_log.o $(SHARED_OBJECTS) $(MODEL_LIBS)
 	$(CXX) -o $@ $^ $(LDLIBS)
 
--include $(wildcard $(BUILD)/obj/*.d $(BUILD)/flight-obj/*.d)
+$(BUILD)/full-hd-landing-stages: $(FULL_HD_OBJECTS) $(FULL_HD_MODEL)/libVlanding_core.a $(FULL_HD_MODEL)/libverilated.a
+	$(CXX) -o $@ $^ $(LDLIBS)
+
+-include $(wildcard $(BUILD)/obj/*.d $(BUILD)/flight-obj/*.d $(BUILD)/full-hd-obj/*.d)

@@ -14,8 +14,8 @@ MAGIC = b"TDF1"
 HEADER_BYTES = 20
 ALTITUDE_BYTES = 4
 MAX_MESSAGE_BYTES = 64
-MAX_WIDTH = 1280
-MAX_HEIGHT = 720
+HD = (1280, 720)
+FULL_HD = (1920, 1080)
 MIN_SIDE = 16
 MAX_ALTITUDE_MM = 40_000
 
@@ -36,12 +36,12 @@ class FrameList:
         return self.count * self.repeat
 
 
-def _checked(index: int, frame: np.ndarray, shape: tuple[int, ...] | None) -> np.ndarray:
+def _checked(index: int, frame: np.ndarray, shape: tuple[int, ...] | None, most: tuple[int, int]) -> np.ndarray:
     if frame.dtype != np.uint8 or frame.ndim != 3 or frame.shape[2] != 3:
         raise UserError(f"frame {index} is {frame.dtype} {frame.shape}; give uint8 RGB of shape (height, width, 3).")
     height, width = frame.shape[:2]
-    if not (MIN_SIDE <= width <= MAX_WIDTH and MIN_SIDE <= height <= MAX_HEIGHT):
-        raise UserError(f"frame {index} is {width}x{height}; the hardware takes 16x16 to {MAX_WIDTH}x{MAX_HEIGHT}.")
+    if not (MIN_SIDE <= width <= most[0] and MIN_SIDE <= height <= most[1]):
+        raise UserError(f"frame {index} is {width}x{height}; the hardware takes 16x16 to {most[0]}x{most[1]}.")
     if shape is not None and frame.shape != shape:
         raise UserError(f"frame {index} is {width}x{height} and frame 0 is {shape[1]}x{shape[0]}; give one size.")
     return np.ascontiguousarray(frame)
@@ -53,6 +53,8 @@ def write_frame_list(
     altitudes_mm: Iterable[int],
     repeat: int = 1,
     from_autopilot: Iterable[bytes] = (),
+    *,
+    most: tuple[int, int] = HD,
 ) -> FrameList:
     """Write frames and their altitudes as they come; no more than one frame is held in memory.
 
@@ -62,6 +64,7 @@ def write_frame_list(
         altitudes_mm: what the LiDAR measures during each frame, in millimetres; 0 = no return.
         repeat: how often each frame is shown in a row.
         from_autopilot: what the autopilot says before the record of each frame; none where these come to their end.
+        most: width and height for which the hardware is built.
 
     Raises:
         UserError: no frames, a frame of wrong shape or size, too few altitudes, an altitude out of range, or too much
@@ -79,7 +82,7 @@ def write_frame_list(
     with path.open("wb") as file:
         file.write(bytes(HEADER_BYTES))
         for frame in frames:
-            pixels = _checked(count, frame, shape)
+            pixels = _checked(count, frame, shape, most)
             shape = pixels.shape
             altitude = next(altitudes, None)
             if altitude is None:

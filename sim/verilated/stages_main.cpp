@@ -3,7 +3,7 @@
 // (stage_taps.h) and its records (run_log.h).
 //
 // Arguments: frames=<file> out=<folder> frame-clocks=<n> threshold=<n> min-area=<n>
-// ctrl=<n> random-memory=<0|1> seed=<n> taps=<0|1>
+// ctrl=<n> random-memory=<0|1> seed=<n> taps=<0|1> full-hd=<0|1>
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
@@ -30,10 +30,16 @@ void run(const Arguments& arguments) {
     RunLog log(arguments.text("out"));
     const FrameList frames(arguments.text("frames"));
     RamBoard board(log);
-    VideoTiming timing;
+    const bool full_hd = arguments.number("full-hd") != 0;
+    VideoTiming timing = full_hd ? VideoTiming::of_1080p60() : VideoTiming();
     timing.frame_clocks = arguments.number("frame-clocks");
     VideoSource video(frames, timing);
     ModelConfig config;
+    if (full_hd) {
+        config.clk_hz = 150'000'000;
+        config.pix_hz = 148'500'000;
+        config.clk_per_us = 150;
+    }
     config.memory.random = arguments.number("random-memory") != 0;
     config.memory.seed = arguments.number("seed");
     LandingModel model(config, video, board);

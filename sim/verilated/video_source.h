@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera: shows a frame list with the timing of 720p60 (CEA-861: 1650 x 750
-// pixel clocks in all, sync pulses active high).
+// pixel clocks in all, sync pulses active high), or with that of 1080p60 (2200 x
+// 1125).
 //
-// Other frame sizes keep the blanking of 720p60. `frame_clocks` lengthens the
+// Other frame sizes keep the blanking. `frame_clocks` lengthens the
 // vertical front porch by whole lines until a frame takes at least that long.
 #pragma once
 
@@ -21,6 +22,17 @@ struct VideoTiming {
     uint32_t v_sync = 5;
     uint32_t v_back = 20;
     uint64_t frame_clocks = 0;
+
+    static VideoTiming of_1080p60() {
+        VideoTiming timing;
+        timing.h_front = 88;
+        timing.h_sync = 44;
+        timing.h_back = 148;
+        timing.v_front = 4;
+        timing.v_sync = 5;
+        timing.v_back = 36;
+        return timing;
+    }
 };
 
 class VideoSource final : public Camera {

@@ -22,6 +22,7 @@ class Limit(NamedTuple):
     legal: int
     error: str
     module: str = ""
+    also: tuple[str, int] | None = None
 
     def __str__(self) -> str:
         return f"{self.module or self.core}-{self.parameter}={self.illegal}"
@@ -50,6 +51,12 @@ LIMITS = [
         for limit in limits(core, "MAX_HEIGHT", (1, 32768), HEIGHT)
     ),
     *limits("erode3x3", "DILATE", (0, 1), "ERROR_dilate_must_be_0_or_1", "morphology3x3"),
+    *(
+        Limit(core, "PPC", illegal, legal, "ERROR_ppc_must_be_1_or_2_or_4")
+        for core in ("rgb2gray", "gaussian5x5", "erode3x3", "median5x5", "dilate3x3")
+        for illegal, legal in ((0, 1), (3, 2), (5, 4), (8, 4))
+    ),
+    Limit("erode3x3", "MAX_WIDTH", 1278, 1280, "ERROR_max_width_must_be_a_multiple_of_ppc", also=("PPC", 4)),
     Limit("rgb2gray", "WIDTH", 0, 1, "ERROR_width_must_be_at_least_1", "axis_skid"),
     Limit("median5x5", "TAPS", 4, 3, "ERROR_taps_must_be_3_or_5", "border_mux"),
     Limit("median5x5", "TAPS", 7, 5, "ERROR_taps_must_be_3_or_5", "border_mux"),
@@ -113,7 +120,9 @@ def elaborate(limit: Limit, value: int) -> subprocess.CompletedProcess[str]:
     core = load_core(limit.core)
     top = limit.module or core.toplevel
     command = ["iverilog", "-g2005", "-t", "null", "-I", "rtl/generated", "-s", top]
-    command += [f"-P{top}.{limit.parameter}={value}", *map(str, core.sources)]
+    settings = [(limit.parameter, value), *([limit.also] if limit.also else [])]
+    command += [f"-P{top}.{name}={setting}" for name, setting in settings]
+    command += map(str, core.sources)
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
 
