@@ -53,8 +53,8 @@ module frame_tracker #(
 
   localparam [15:0] LEAST_WIDTH = MIN_WIDTH[15:0];
   localparam [15:0] LEAST_HEIGHT = MIN_HEIGHT[15:0];
-  localparam [15:0] WIDTH_SPAN = MAX_WIDTH[15:0] - LEAST_WIDTH;
-  localparam [15:0] HEIGHT_SPAN = MAX_HEIGHT[15:0] - LEAST_HEIGHT;
+  localparam [15:0] MOST_WIDTH = MAX_WIDTH[15:0];
+  localparam [15:0] MOST_HEIGHT = MAX_HEIGHT[15:0];
 
   // SILENT: the fault, if any, is reported; everything up to the next start is dropped.
   // FRAME: within a good frame. DONE: after the last pixel of a complete frame.
@@ -69,15 +69,15 @@ module frame_tracker #(
   reg  [X_BITS-1:0] last_x_reg;
   reg  [Y_BITS-1:0] last_y_reg;
 
-  wire [      15:0] cfg_last_x = cfg_width - 16'd1;
-  wire [      15:0] cfg_last_y = cfg_height - 16'd1;
-  // A size below the least wraps and is refused with those above the greatest.
-  wire [      15:0] width_above_least = cfg_width - LEAST_WIDTH;
-  wire [      15:0] height_above_least = cfg_height - LEAST_HEIGHT;
-  wire              size_ok = width_above_least <= WIDTH_SPAN && height_above_least <= HEIGHT_SPAN;
+  // Side by side, not one after the other: the way from here to every register of a core is its longest.
+  wire [X_BITS-1:0] cfg_last_x = cfg_width[X_BITS-1:0] - 1'b1;
+  wire [Y_BITS-1:0] cfg_last_y = cfg_height[Y_BITS-1:0] - 1'b1;
+  wire              width_ok = cfg_width >= LEAST_WIDTH && cfg_width <= MOST_WIDTH;
+  wire              height_ok = cfg_height >= LEAST_HEIGHT && cfg_height <= MOST_HEIGHT;
+  wire              size_ok = width_ok && height_ok;
 
-  wire              at_last_x = beat_user ? cfg_last_x == 16'd0 : x_reg == last_x_reg;
-  wire              at_last_y = beat_user ? cfg_last_y == 16'd0 : y_reg == last_y_reg;
+  wire              at_last_x = beat_user ? cfg_width == 16'd1 : x_reg == last_x_reg;
+  wire              at_last_y = beat_user ? cfg_height == 16'd1 : y_reg == last_y_reg;
   wire              in_frame = beat_user ? size_ok : state_reg == FRAME;
 
   assign accept = beat && in_frame && beat_last == at_last_x;
@@ -95,8 +95,8 @@ module frame_tracker #(
 
     if (beat) begin
       if (beat_user) begin
-        last_x_reg <= cfg_last_x[X_BITS-1:0];
-        last_y_reg <= cfg_last_y[Y_BITS-1:0];
+        last_x_reg <= cfg_last_x;
+        last_y_reg <= cfg_last_y;
       end
       sol_reg <= at_last_x;
       x_reg   <= at_last_x ? {X_BITS{1'b0}} : x[X_BITS-1:0] + 1'b1;

@@ -68,8 +68,8 @@ module window_cols #(
   genvar pixel, distance;
   generate
     if (CENTRE == 2) begin : g_second
-      assign before_ok[1] = before_ok[0] && !first_reg[CENTRE-1];
-      assign behind_ok[1] = behind_ok[0] && !last_reg[CENTRE+1];
+      assign before_ok[1] = !first_reg[CENTRE] && !first_reg[CENTRE-1];
+      assign behind_ok[1] = !last_reg[CENTRE] && !last_reg[CENTRE+1];
     end
     for (pixel = 0; pixel < PPC; pixel = pixel + 1) begin : g_pixel
       wire [REACH-1:0] low_ok;

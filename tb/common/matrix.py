@@ -263,7 +263,7 @@ def check_frames(received: list[list[Taken]], sent: list[SentFrame], core: Video
         assert remaining, f"{name} ({frame.width}x{frame.height}) did not come; {where()}"
         beats = remaining.pop(0)
         if frame.complete:
-            check_frame(beats, expected, name, core.reach, core.bits_in, core.ppc)
+            check_frame(beats, expected, name, core.reach, bits=core.bits_in, ppc=core.ppc)
             continue
         got = unpack([beat.data for beat in beats], core.bits_in, core.ppc)
         wanted = expected.ravel()[:count].tolist()
