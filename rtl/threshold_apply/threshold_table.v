@@ -73,6 +73,12 @@ module threshold_table #(
     !serving_bank_reg, row[PAIR_BITS:1], column[COLUMN_BITS-1:0]
   };
 
+  // A node goes into memory a cycle later, so that whether its beat counts need not be known sooner.
+  reg write_even_reg;
+  reg write_odd_reg;
+  reg [ADDRESS_BITS-1:0] write_address_reg;
+  reg [15:0] write_node_reg;
+
   wire [15:0] new_last_column = (cfg_width - 16'd1) >> WINDOW_LOG2;
   wire [15:0] new_last_row = (cfg_height - 16'd1) >> WINDOW_LOG2;
   wire same_size = size_known_reg && new_last_column == last_column && new_last_row == last_row;
@@ -101,8 +107,12 @@ module threshold_table #(
       open_reg  <= good && !(at_last_column && row == last_row);
       whole_reg <= good && at_last_column && row == last_row;
     end
-    if (good && !row[0]) even_rows[write_address] <= s_stat_axis_tdata;
-    if (good && row[0]) odd_rows[write_address] <= s_stat_axis_tdata;
+    write_even_reg    <= good && !row[0];
+    write_odd_reg     <= good && row[0];
+    write_address_reg <= write_address;
+    write_node_reg    <= s_stat_axis_tdata;
+    if (write_even_reg) even_rows[write_address_reg] <= write_node_reg;
+    if (write_odd_reg) odd_rows[write_address_reg] <= write_node_reg;
 
     if (start) reading_reg <= 1'b1;
     else if (advance) reading_reg <= 1'b0;

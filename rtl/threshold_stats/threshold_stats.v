@@ -10,10 +10,10 @@
 // A row of windows is told after its last pixel was handed over, and before the first pixel of the next frame is
 // offered; a frame that is cut off tells no row that it did not complete.
 //
-// Latency     1 cycle for a pixel; 7 cycles from the last pixel of a row of windows to its first beat.
+// Latency     1 cycle for a pixel; 8 cycles from the last pixel of a row of windows to its first beat.
 // Throughput  1 pixel a cycle; 1 window a cycle.
 // Stall       A start of frame, and the last pixel of a row of windows, wait until the row of windows before has been
-//             handed over: at most 6 cycles and one a window, plus what m_stat_axis stalls.
+//             handed over: at most 7 cycles and one a window, plus what m_stat_axis stalls.
 // Border      Windows at the right and at the bottom are cut by the frame, down to one pixel.
 // Rounding    None.
 // Overflow    None: each row of windows waits for the one before it.
@@ -103,7 +103,8 @@ module threshold_stats #(
   // Extremes so far of the windows of a row, and of the row before while it is told.
   reg [15:0] extremes[0:(2<<COLUMN_BITS)-1];
 
-  // Stage 1 reads the extremes of the pixel's window; stage 2 takes the pixel in.
+  // Stage 1 reads the extremes of the pixel's window; stage 2 takes the pixel in; stage 3 writes them. A window of one
+  // column between two pixels of another leaves no time for that: stage 2 then gets what stage 3 writes.
   reg a_valid_reg;
   reg [7:0] a_pixel_reg;
   reg a_fresh_reg;
@@ -119,10 +120,21 @@ module threshold_stats #(
   reg b_row_end_reg;
   reg [COLUMN_BITS:0] b_address_reg;
   reg [15:0] b_stored_reg;
+  reg b_late_reg;
+  reg [15:0] b_late_stored_reg;
   reg [15:0] current_reg;
-  wire [15:0] base = b_same_reg ? current_reg : b_stored_reg;
-  wire [7:0] greatest = b_fresh_reg || b_pixel_reg > base[15:8] ? b_pixel_reg : base[15:8];
-  wire [7:0] least = b_fresh_reg || b_pixel_reg < base[7:0] ? b_pixel_reg : base[7:0];
+  reg c_write_reg;
+  reg c_row_end_reg;
+  reg [COLUMN_BITS:0] c_address_reg;
+  // What is stored comes late, out of memory: the rest is decided beside it.
+  wire early = b_fresh_reg || b_same_reg || b_late_reg;
+  wire [15:0] base = b_same_reg ? current_reg : b_late_stored_reg;
+  wire [7:0] early_greatest = b_fresh_reg || b_pixel_reg > base[15:8] ? b_pixel_reg : base[15:8];
+  wire [7:0] early_least = b_fresh_reg || b_pixel_reg < base[7:0] ? b_pixel_reg : base[7:0];
+  wire [7:0] late_greatest = b_pixel_reg > b_stored_reg[15:8] ? b_pixel_reg : b_stored_reg[15:8];
+  wire [7:0] late_least = b_pixel_reg < b_stored_reg[7:0] ? b_pixel_reg : b_stored_reg[7:0];
+  wire [7:0] greatest = early ? early_greatest : late_greatest;
+  wire [7:0] least = early ? early_least : late_least;
 
   // Telling a row of windows: read, difference, product, sum.
   reg row_first_reg;
@@ -225,14 +237,19 @@ module threshold_stats #(
     b_row_end_reg <= a_row_end_reg;
     b_address_reg <= a_address_reg;
     b_stored_reg  <= extremes[a_address_reg];
+    b_late_reg    <= c_write_reg && c_address_reg == a_address_reg;
+    b_late_stored_reg <= current_reg;
 
     if (b_valid_reg) current_reg <= {greatest, least};
-    if (b_valid_reg && b_right_reg) extremes[b_address_reg] <= {greatest, least};
+    c_write_reg   <= b_valid_reg && b_right_reg;
+    c_row_end_reg <= b_row_end_reg;
+    c_address_reg <= b_address_reg;
+    if (c_write_reg) extremes[c_address_reg] <= current_reg;
 
     if (take && p_row_end) busy_reg <= 1'b1;
     else if (m_stat_axis_tvalid && m_stat_axis_tready && m_stat_axis_tlast) busy_reg <= 1'b0;
 
-    if (b_row_end_reg) begin
+    if (c_row_end_reg) begin
       walk_reg        <= 1'b1;
       walk_column_reg <= {COLUMN_BITS{1'b0}};
     end else if (go && walk_reg) begin
@@ -265,6 +282,8 @@ module threshold_stats #(
       a_row_end_reg      <= 1'b0;
       b_valid_reg        <= 1'b0;
       b_row_end_reg      <= 1'b0;
+      c_write_reg        <= 1'b0;
+      c_row_end_reg      <= 1'b0;
       walk_reg           <= 1'b0;
       t_valid_reg        <= 3'd0;
       m_stat_axis_tvalid <= 1'b0;
