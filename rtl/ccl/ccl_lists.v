@@ -53,7 +53,9 @@ module ccl_lists #(
     reg y_current_reg, y_held_reg;
     reg [SLOT_BITS-1:0] y_tail_reg, y_first_reg, y_last_reg, y_next_reg;
 
-    wire x_is_y = x_active_reg && x_pending_reg && x_head_reg == p_reg;
+    // Kept, not compared: much hangs on it. x_head_is_p_reg means nothing unless x has pending runs.
+    reg x_head_is_p_reg;
+    wire x_is_y = x_active_reg && x_pending_reg && x_head_is_p_reg;
     wire y_more = y_tail_reg != p_reg;
 
     // The class of c after it touched p, with p consumed.
@@ -61,11 +63,18 @@ module ccl_lists #(
     reg [SLOT_BITS-1:0] joined_head, joined_tail, joined_first;
     reg link_enable;
     reg [SLOT_BITS-1:0] link_from, link_to;
+    // The same of both candidates for a place: comparing is not behind choosing.
+    wire x_head_is_next = x_head_reg == p_next;
+    wire y_last_is_next = y_last_reg == p_next;
+    wire y_tail_is_next = y_tail_reg == p_next;
+    reg joined_head_is_next, link_from_is_next;
 
     always @* begin
         joined_head = y_next_reg;
         link_from   = y_last_reg;
         link_to     = c_reg;
+        joined_head_is_next = y_next_reg == p_next;
+        link_from_is_next   = y_last_is_next;
         if (x_is_y) begin
             joined_pending = x_tail_reg != p_reg;
             joined_tail    = x_tail_reg;
@@ -78,10 +87,14 @@ module ccl_lists #(
             joined_first   = y_current_reg ? y_first_reg : x_first_reg;
             link_enable    = x_pending_reg || y_current_reg;
             link_to        = x_first_reg;
-            if (!y_more) joined_head = x_head_reg;
+            if (!y_more) begin
+                joined_head         = x_head_reg;
+                joined_head_is_next = x_head_is_next;
+            end
             if (x_pending_reg) begin
-                link_from = y_tail_reg;
-                link_to   = x_head_reg;
+                link_from         = y_tail_reg;
+                link_from_is_next = y_tail_is_next;
+                link_to           = x_head_reg;
             end
         end else begin
             joined_pending = y_more;
@@ -158,9 +171,10 @@ module ccl_lists #(
     always @(posedge clk) begin
         if (home_is_p_next) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= home_info;
         else if (end_above) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= info_ahead;
-        if (link_enable && link_from == p_next) y_next_reg <= link_to;
+        if (link_enable && link_from_is_next) y_next_reg <= link_to;
         else if (end_above) y_next_reg <= next_ahead;
 
+        x_head_is_p_reg <= touch ? joined_head_is_next : x_head_is_next;
         if (touch) begin
             x_pending_reg <= joined_pending;
             x_head_reg    <= joined_head;

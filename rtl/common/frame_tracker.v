@@ -69,11 +69,22 @@ module frame_tracker #(
   reg  [X_BITS-1:0] last_x_reg;
   reg  [Y_BITS-1:0] last_y_reg;
 
-  // Side by side, not one after the other: the way from here to every register of a core is its longest.
+  // From the size to the registers of a core is its longest way. Against a constant, bits are quicker than a carry chain.
+  function at_most;
+    input [15:0] low;
+    input [15:0] high;
+    integer place;
+    begin
+      at_most = 1'b1;
+      for (place = 0; place < 16; place = place + 1)
+        at_most = high[place] ? !low[place] || at_most : !low[place] && at_most;
+    end
+  endfunction
+
   wire [X_BITS-1:0] cfg_last_x = cfg_width[X_BITS-1:0] - 1'b1;
   wire [Y_BITS-1:0] cfg_last_y = cfg_height[Y_BITS-1:0] - 1'b1;
-  wire              width_ok = cfg_width >= LEAST_WIDTH && cfg_width <= MOST_WIDTH;
-  wire              height_ok = cfg_height >= LEAST_HEIGHT && cfg_height <= MOST_HEIGHT;
+  wire              width_ok = at_most(LEAST_WIDTH, cfg_width) && at_most(cfg_width, MOST_WIDTH);
+  wire              height_ok = at_most(LEAST_HEIGHT, cfg_height) && at_most(cfg_height, MOST_HEIGHT);
   wire              size_ok = width_ok && height_ok;
 
   wire              at_last_x = beat_user ? cfg_width == 16'd1 : x_reg == last_x_reg;
