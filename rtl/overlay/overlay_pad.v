@@ -61,7 +61,9 @@ module overlay_pad (
       centre_x_3_reg, centre_y_3_reg, low_x_3_reg, high_x_3_reg, low_y_3_reg, high_y_3_reg;
   reg signed [14:0] dx_3_reg, dy_3_reg;
   reg signed [28:0] cx_dy_3_reg, cy_dx_3_reg;
-  reg signed [13:0] centre_x_4_reg, centre_y_4_reg;
+  // The cross at the centre: ends of its long arms, sides of its thin ones.
+  reg signed [14:0] long_left_4_reg, long_right_4_reg, long_top_4_reg, long_bottom_4_reg;
+  reg signed [14:0] thin_left_4_reg, thin_right_4_reg, thin_top_4_reg, thin_bottom_4_reg;
   reg signed [14:0] low_x_4_reg, high_x_4_reg, low_y_4_reg, high_y_4_reg;
   reg signed [14:0] dx_4_reg, dy_4_reg;
   reg signed [30:0] first_4_reg;
@@ -108,8 +110,14 @@ module overlay_pad (
     end
     if (sample_4) begin
       show_4_reg     <= show_3_reg;
-      centre_x_4_reg <= centre_x_3_reg;
-      centre_y_4_reg <= centre_y_3_reg;
+      long_left_4_reg   <= centre_x_3_reg - ARM;
+      long_right_4_reg  <= centre_x_3_reg + ARM;
+      long_top_4_reg    <= centre_y_3_reg - ARM;
+      long_bottom_4_reg <= centre_y_3_reg + ARM;
+      thin_left_4_reg   <= centre_x_3_reg - 15'sd1;
+      thin_right_4_reg  <= centre_x_3_reg + 15'sd1;
+      thin_top_4_reg    <= centre_y_3_reg - 15'sd1;
+      thin_bottom_4_reg <= centre_y_3_reg + 15'sd1;
       low_x_4_reg    <= low_x_3_reg - 15'sd1;
       high_x_4_reg   <= high_x_3_reg + 15'sd1;
       low_y_4_reg    <= low_y_3_reg - 15'sd1;
@@ -142,18 +150,22 @@ module overlay_pad (
     end
   end
 
-  wire signed [30:0] reach = {16'd0, reach_4_reg};
-  wire near = product_reg <= reach && product_reg >= -reach;
+  // Whether the product lies beyond the reach to either side, by the sign of one sum each.
+  wire beyond_low, beyond_high;
+  wire [30:0] unused_low, unused_high;
+
+  assign {beyond_low, unused_low}   = {17'd0, reach_4_reg} + {product_reg[30], product_reg};
+  assign {beyond_high, unused_high} = {17'd0, reach_4_reg} - {product_reg[30], product_reg};
+
+  wire near = !beyond_low && !beyond_high;
   wire signed [14:0] at_x = {x_4_reg[13], x_4_reg};
   wire signed [14:0] at_y = {y_4_reg[13], y_4_reg};
   wire near_ends = at_x >= low_x_4_reg && at_x <= high_x_4_reg && at_y >= low_y_4_reg && at_y <= high_y_4_reg;
 
-  wire signed [14:0] right = x_4_reg - centre_x_4_reg;
-  wire signed [14:0] below = y_4_reg - centre_y_4_reg;
-  wire wide = right >= -ARM && right <= ARM;
-  wire narrow = right >= -15'sd1 && right <= 15'sd1;
-  wire tall = below >= -ARM && below <= ARM;
-  wire flat = below >= -15'sd1 && below <= 15'sd1;
+  wire wide = at_x >= long_left_4_reg && at_x <= long_right_4_reg;
+  wire narrow = at_x >= thin_left_4_reg && at_x <= thin_right_4_reg;
+  wire tall = at_y >= long_top_4_reg && at_y <= long_bottom_4_reg;
+  wire flat = at_y >= thin_top_4_reg && at_y <= thin_bottom_4_reg;
 
   assign covers = show_4_reg && ((near && near_ends) || (wide && flat) || (narrow && tall));
 
