@@ -19,7 +19,7 @@ from scripts.lint import YOSYS, include_flags
 from scripts.nextpnr import COMMAND, Nextpnr, NotRoutedError, fetch, find, why_not_here
 from scripts.page_block import find_block
 from scripts.pnr_harness import TOP, Port, constraints, harness, ports_of
-from scripts.synth import budgets
+from scripts.synth import budgets, mapping_steps
 from tb.common.cores import ROOT, Core, core_names, load_core
 
 FOLDER = ROOT / "build/nextpnr"
@@ -38,7 +38,9 @@ def netlist(core: Core, ports: list[Port], folder: Path) -> tuple[Path, Path]:
     verilog.write_text(harness(core, ports, {}))
     pins.write_text(constraints(ports))
     sources = " ".join(str(source) for source in (*core.sources, verilog))
-    script = f"read_verilog {' '.join(include_flags())} {sources}; {MAP}; write_json {out}"
+    script = "; ".join(
+        [f"read_verilog {' '.join(include_flags())} {sources}", *mapping_steps(MAP), f"write_json {out}"]
+    )
     run = subprocess.run([sys.executable, "-c", YOSYS, script], cwd=ROOT, capture_output=True, text=True, check=False)
     if run.returncode != 0:
         raise ValueError(f"yosys refuses {core.name}: {(run.stdout + run.stderr).strip().splitlines()[-1]}")

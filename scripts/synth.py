@@ -24,6 +24,9 @@ from tb.common.cores import ROOT, core_names, load_core
 
 BUDGETS = ROOT / "constraints/budgets.toml"
 MAP = "synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}"
+PACKED = "map_memory"
+"""The step of `synth_xilinx` behind the one that packs multipliers, which may take a register that others read: then a
+wire has no driver. The steps behind it would make a constant of that, so it is looked for in between."""
 
 LOGIC = {"INV": 1, **{f"LUT{inputs}": 1 for inputs in range(1, 7)}}
 SHIFT = {"SRL16E": 1, "SRLC32E": 1}
@@ -74,6 +77,11 @@ def area_of(cells: dict[str, int]) -> Area:
     return Area(total(LOGIC), total(SHIFT), total(MEMORY), total(FLIP_FLOP), *blocks)
 
 
+def mapping_steps(command: str) -> list[str]:
+    """A call of `synth_xilinx` in two, with a look for wires without a driver where they can be seen."""
+    return [f"{command} -run begin:{PACKED}", "check -assert", f"{command} -run {PACKED}:"]
+
+
 def synthesise(top: str, sources: list[str], parameters: Mapping[str, int] | None = None) -> Area:
     """Map one design, sources from the project root, with these parameters instead of their defaults.
 
@@ -83,7 +91,8 @@ def synthesise(top: str, sources: list[str], parameters: Mapping[str, int] | Non
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "stat.json"
         quiet = f"tee -q -o {os.devnull}"
-        steps = [f"{quiet} {MAP.format(top=top)}", f"{quiet} check -assert", f"tee -q -o {report} stat -json"]
+        mapping = [f"{quiet} {step}" for step in mapping_steps(MAP.format(top=top))]
+        steps = [*mapping, f"{quiet} check -assert", f"tee -q -o {report} stat -json"]
         script = "; ".join([yosys_script(top, sources, parameters), *steps])
         command = [sys.executable, "-c", YOSYS, script]
         result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)

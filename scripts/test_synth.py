@@ -44,6 +44,20 @@ def test_yosys_refuses(fault: str, tmp_path: Path) -> None:
         synth.synthesise("dut", [str(source)])
 
 
+def test_a_register_that_yosys_takes_from_its_readers_is_seen(tmp_path: Path) -> None:
+    """It packs a difference and its register into a multiplier and leaves the other reader without a driver."""
+    source = tmp_path / "dut.v"
+    ports = "input wire clk, input wire signed [13:0] a, b, output reg signed [28:0] p, output reg [14:0] q"
+    registers = "reg signed [13:0] a_reg, b_reg, c_reg; {keep} reg signed [14:0] d_reg;"
+    body = "a_reg <= a; b_reg <= b; c_reg <= a_reg; d_reg <= b_reg - a_reg; p <= c_reg * d_reg; q <= d_reg;"
+    text = f"module dut({ports}); {registers} always @(posedge clk) begin {body} end endmodule\n"
+    source.write_text(text.format(keep="(* keep *)"))
+    assert synth.synthesise("dut", [str(source)]).dsp == 1
+    source.write_text(text.format(keep=""))
+    with pytest.raises(ValueError, match="yosys refuses dut"):
+        synth.synthesise("dut", [str(source)])
+
+
 def test_a_memory_that_becomes_lutram_is_seen(tmp_path: Path) -> None:
     budget = {"lut": 1000, "ff": 1000, "bram36": 0, "bram18": 1, "dsp": 0}
     found = []
