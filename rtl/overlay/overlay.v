@@ -8,12 +8,13 @@
 // Borders     none: pointwise; what lies outside the frame is not drawn.
 // Rounding    the picture behind the text is a quarter as bright, rounded down.
 // Overflow    none: coordinates are signed, -8192 to 8191, and everything is computed wide enough for them.
-// Limits      cfg_* are sampled with the first pixel of a frame, unless cfg_hold: then the frame shows what the one before
-//             showed. Malformed frames: docs/design.md.
+// Limits      cfg_* are sampled with the first pixel of a frame, of a malformed one too, unless cfg_hold: then the frame shows
+//             what the one before sampled. Malformed frames: docs/design.md.
 //
 // cfg_boxes holds {bottom, right, top, left} of box 3 to box 0, 14 bits each, ends included; its line lies
-// inside and is 2 pixels wide. With cfg_tint a pixel whose red is 128 or more has the colour of the last box around it. The direction is the line from cfg_centre to cfg_tip, drawn where a pixel is at most one
-// from it, counted along the axis that changes less.
+// inside and is 2 pixels wide. With cfg_tint a pixel whose red is 128 or more has the colour of the last box around it. The
+// direction is the line from cfg_centre to cfg_tip, drawn where a pixel is at most one from it, counted along the axis that
+// changes less.
 
 `default_nettype none
 
@@ -104,9 +105,10 @@ module overlay #(
       .frame_error(frame_error)
   );
 
-  // ---- Stage 1: place and colour of the pixel. Of cfg_* what the first pixel finds is kept, by each shape for itself.
+  // ---- Stage 1: place and colour of the pixel. Of cfg_* what the first pixel finds is kept, by each shape for itself,
+  // whether the pixel is good or not: to know that takes the tracker most of a cycle.
 
-  wire start = accept && sof;
+  wire start = advance && s_axis_tvalid && s_axis_tuser;
   reg [23:0] rgb_1_reg;
   reg [13:0] x_1_reg, y_1_reg;
   reg sol_1_reg;
@@ -134,8 +136,8 @@ module overlay #(
     if (rst) valid_reg <= 6'd0;
   end
 
-  // ---- Stages 2 to 4: which shapes cover the pixel. Boxes and crosshair are known in stage 2, the text in stage 3, the
-  // pad's mark in stage 4.
+  // ---- Stages 2 to 5: which shapes cover the pixel. Boxes are known in stage 2, the crosshair in stage 3, the text in stage
+  // 4, the pad's mark in stage 5.
 
   wire       on_crosshair;
   wire [3:0] on_box;
@@ -144,7 +146,8 @@ module overlay #(
   overlay_crosshair crosshair (
       .clk        (clk),
       .rst        (rst),
-      .start      (advance && start),
+      .advance    (advance),
+      .start      (start),
       .hold       (cfg_hold),
       .show       (cfg_show_crosshair),
       .half_width (cfg_width[14:1]),
@@ -160,7 +163,7 @@ module overlay #(
       overlay_box shape (
           .clk   (clk),
           .rst   (rst),
-          .sample(advance && start && !cfg_hold),
+          .sample(start && !cfg_hold),
           .show  (cfg_show_boxes[box]),
           .left  (cfg_boxes[56*box+:14]),
           .top   (cfg_boxes[56*box+14+:14]),
@@ -183,7 +186,7 @@ module overlay #(
       .write  (text_write),
       .address(text_address),
       .char   (text_char),
-      .sample (advance && start && !cfg_hold),
+      .sample (start && !cfg_hold),
       .show   (cfg_show_text),
       .bank   (cfg_text_bank),
       .advance(advance),
@@ -206,8 +209,6 @@ module overlay #(
       .centre_y(cfg_centre_y),
       .tip_x   (cfg_tip_x),
       .tip_y   (cfg_tip_y),
-      .valid_1 (valid_reg[1]),
-      .valid_2 (valid_reg[2]),
       .valid_3 (valid_reg[3]),
       .sol_1   (sol_1_reg),
       .x_1     (x_1_reg),
@@ -216,51 +217,52 @@ module overlay #(
   );
 
   reg [23:0] rgb_2_reg, rgb_3_reg, rgb_4_reg;
-  reg [4:0] shapes_2_reg, shapes_3_reg, shapes_4_reg;
-  reg [3:0] tints_2_reg, tints_3_reg, tints_4_reg;
+  reg [3:0] boxes_2_reg;
+  reg [4:0] shapes_3_reg;
+  reg [3:0] tints_2_reg, tints_3_reg;
   reg tint_reg;
-  reg [1:0] text_4_reg, text_5_reg;
+  reg [1:0] text_5_reg;
+  reg on_pad_5_reg;
 
   always @(posedge clk) begin
     if (advance) begin
       rgb_2_reg    <= rgb_1_reg;
       rgb_3_reg    <= rgb_2_reg;
-      rgb_4_reg    <= rgb_3_reg;
-      shapes_2_reg <= {on_crosshair, on_box};
-      shapes_3_reg <= shapes_2_reg;
-      shapes_4_reg <= shapes_3_reg;
+      boxes_2_reg  <= on_box;
+      shapes_3_reg <= {on_crosshair, boxes_2_reg};
       tints_2_reg  <= in_box & {4{tint_reg && rgb_1_reg[23]}};
       tints_3_reg  <= tints_2_reg;
-      tints_4_reg  <= tints_3_reg;
       if (start && !cfg_hold) tint_reg <= cfg_tint;
-      text_4_reg   <= {text_ink, text_behind};
-      text_5_reg   <= text_4_reg;
+      text_5_reg   <= {text_ink, text_behind};
+      on_pad_5_reg <= on_pad;
     end
   end
 
-  // ---- Stage 5: the picture with the shapes. Stage 6: text over it.
+  // ---- Stage 4: the picture with boxes and crosshair. Stage 6: the pad's mark over it, and text over that.
 
   reg  [23:0] rgb_5_reg;
   reg  [23:0] rgb_6_reg;
-  wire [23:0] dimmed = {2'b0, rgb_5_reg[23:18], 2'b0, rgb_5_reg[15:10], 2'b0, rgb_5_reg[7:2]};
+  wire [23:0] marked = on_pad_5_reg ? PAD_COLOUR : rgb_5_reg;
+  wire [23:0] dimmed = {2'b0, marked[23:18], 2'b0, marked[15:10], 2'b0, marked[7:2]};
 
   always @(posedge clk) begin
     if (advance) begin
-      if (on_pad) rgb_5_reg <= PAD_COLOUR;
-      else if (shapes_4_reg[0]) rgb_5_reg <= RING_COLOUR;
-      else if (shapes_4_reg[1]) rgb_5_reg <= SQUARE_COLOUR;
-      else if (shapes_4_reg[2]) rgb_5_reg <= RECTANGLE_COLOUR;
-      else if (shapes_4_reg[3]) rgb_5_reg <= SMALL_RING_COLOUR;
-      else if (shapes_4_reg[4]) rgb_5_reg <= CROSSHAIR_COLOUR;
-      else if (tints_4_reg[3]) rgb_5_reg <= SMALL_RING_COLOUR;
-      else if (tints_4_reg[2]) rgb_5_reg <= RECTANGLE_COLOUR;
-      else if (tints_4_reg[1]) rgb_5_reg <= SQUARE_COLOUR;
-      else if (tints_4_reg[0]) rgb_5_reg <= RING_COLOUR;
-      else rgb_5_reg <= rgb_4_reg;
+      if (shapes_3_reg[0]) rgb_4_reg <= RING_COLOUR;
+      else if (shapes_3_reg[1]) rgb_4_reg <= SQUARE_COLOUR;
+      else if (shapes_3_reg[2]) rgb_4_reg <= RECTANGLE_COLOUR;
+      else if (shapes_3_reg[3]) rgb_4_reg <= SMALL_RING_COLOUR;
+      else if (shapes_3_reg[4]) rgb_4_reg <= CROSSHAIR_COLOUR;
+      else if (tints_3_reg[3]) rgb_4_reg <= SMALL_RING_COLOUR;
+      else if (tints_3_reg[2]) rgb_4_reg <= RECTANGLE_COLOUR;
+      else if (tints_3_reg[1]) rgb_4_reg <= SQUARE_COLOUR;
+      else if (tints_3_reg[0]) rgb_4_reg <= RING_COLOUR;
+      else rgb_4_reg <= rgb_3_reg;
+
+      rgb_5_reg <= rgb_4_reg;
 
       if (text_5_reg[1]) rgb_6_reg <= TEXT_COLOUR;
       else if (text_5_reg[0]) rgb_6_reg <= dimmed;
-      else rgb_6_reg <= rgb_5_reg;
+      else rgb_6_reg <= marked;
     end
   end
 

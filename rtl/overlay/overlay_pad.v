@@ -16,15 +16,13 @@ module overlay_pad (
     input wire clk,
     input wire rst,
     input wire advance,
-    input wire start,  // the pixel that stage 1 takes next is the first of its frame
+    input wire start,  // the pixel that stage 1 takes now is the first of its frame
     input wire hold,
     input wire show,
     input wire signed [13:0] centre_x,
     input wire signed [13:0] centre_y,
     input wire signed [13:0] tip_x,
     input wire signed [13:0] tip_y,
-    input wire valid_1,
-    input wire valid_2,
     input wire valid_3,
     input wire sol_1,  // the pixel is the first of its line
     input wire signed [13:0] x_1,
@@ -49,6 +47,7 @@ module overlay_pad (
       {x_3_reg, y_3_reg} <= {x_2_reg, y_2_reg};
       {x_4_reg, y_4_reg} <= {x_3_reg, y_3_reg};
     end
+    if (rst) {start_1_reg, starts_2_reg, starts_3_reg} <= 8'd0;
   end
 
   // ---- From centre and tip to what stage 4 compares with.
@@ -56,7 +55,8 @@ module overlay_pad (
   reg show_1_reg, show_2_reg, show_3_reg, show_4_reg;
   reg signed [13:0] centre_x_1_reg, centre_y_1_reg, tip_x_1_reg, tip_y_1_reg;
   reg signed [13:0] centre_x_2_reg, centre_y_2_reg, tip_x_2_reg, tip_y_2_reg;
-  reg signed [14:0] dx_2_reg, dy_2_reg;
+  // Kept, as yosys takes them into the multipliers and leaves who else reads them without a driver.
+  (* keep *) reg signed [14:0] dx_2_reg, dy_2_reg;
   reg signed [13:0]
       centre_x_3_reg, centre_y_3_reg, low_x_3_reg, high_x_3_reg, low_y_3_reg, high_y_3_reg;
   reg signed [14:0] dx_3_reg, dy_3_reg;
@@ -73,10 +73,10 @@ module overlay_pad (
   wire [14:0] dx_size = dx_3_reg[14] ? -dx_3_reg : dx_3_reg;
   wire [14:0] dy_size = dy_3_reg[14] ? -dy_3_reg : dy_3_reg;
 
-  wire sample_1 = advance && start && !hold;
-  wire sample_2 = advance && valid_1 && start_1_reg[1];
-  wire sample_3 = advance && valid_2 && starts_2_reg[2];
-  wire sample_4 = advance && valid_3 && starts_3_reg[2];
+  wire sample_1 = start && !hold;
+  wire sample_2 = advance && start_1_reg[1];
+  wire sample_3 = advance && starts_2_reg[2];
+  wire sample_4 = advance && starts_3_reg[2];
 
   always @(posedge clk) begin
     if (sample_1) begin

@@ -79,7 +79,10 @@ def test_the_choice_is_the_same_again() -> None:
 def test_a_fault_that_is_not_elaborated_is_passed_over() -> None:
     core = load_core("erode3x3")
     files = {fault.key[:2] for fault in chosen(core, 60, 1)}
-    assert ("rtl/common/window_cols.v", "assign before_ok[1] = !first_reg[CENTRE] && !first_reg[CENTRE-1];") not in files
+    assert (
+        "rtl/common/window_cols.v",
+        "assign before_ok[1] = !first_reg[CENTRE] && !first_reg[CENTRE-1];",
+    ) not in files
 
 
 @pytest.mark.parametrize("name", core_names())

@@ -162,7 +162,7 @@ async def a_bank_is_written_while_the_other_is_shown(dut: HierarchyObject) -> No
 @cocotb.test()
 @cocotb.parametrize(stall=named(STALLS))
 async def held_drawing_stays(dut: HierarchyObject, stall: str) -> None:
-    """Held, a frame shows what was shown last, also by one that was cut off; after a reset nothing."""
+    """Held, a frame shows what was sampled last, by one that was cut off or malformed too; after a reset nothing."""
     rng = Random(getrandbits(64))
     bench = await begin(dut, rng, stall)
     for _ in range(3):
@@ -176,7 +176,9 @@ async def held_drawing_stays(dut: HierarchyObject, stall: str) -> None:
             shown = shown if held[first] else drawing_of(first)
             expected[first] = shown
             whole = frame_beats(frame)
-            beats += whole[: rng.randint(1, len(whole))] if rng.random() < 0.4 else whole
+            malformed = [whole[0]._replace(last=1 - whole[0].last)]
+            cut = whole[: rng.randint(1, len(whole))]
+            beats += rng.choices([whole, cut, malformed], [0.5, 0.3, 0.2])[0]
         await _send_held(bench, beats, held, expected)
         bench.sink.taken.clear()
 
@@ -207,6 +209,23 @@ async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
         await bench.cycles(rng.randint(1, 250))
         await bench.reset(rng.randint(1, 3))
         await send_and_check(bench, CORE, frame_beats(random_frame(rng, 9, 5, 24)) * 2)
+
+
+@cocotb.test()
+async def reset_forgets_a_drawing_on_its_way(dut: HierarchyObject) -> None:
+    """A reset of one clock, however far the first pixel has got, and a frame that holds: nothing is drawn."""
+    bench = await begin(dut, Random(getrandbits(64)), "full_speed")
+    everything = Drawing(((0, 0, 9, 9),) * 4, (4, 4), (8, 2), crosshair=True, tint=True, text=TEXTS[0])
+    frame = frame_beats(random_frame(bench.rng, 12, 9, 24))
+    nothing = VideoCore(lambda image: image, 24, 0, LIMITS)
+    for clocks in range(10):
+        dut.cfg_hold.value = 0
+        showing(bench, everything)
+        bench.source.send_beats(frame)
+        await bench.cycles(clocks)
+        await bench.reset(1)
+        dut.cfg_hold.value = 1
+        await send_and_check(bench, nothing, frame)
 
 
 @cocotb.test()
