@@ -26,7 +26,7 @@ def test_parameters_count() -> None:
 
 
 @pytest.mark.parametrize(
-    ("core", "sentence"), [("nothing", "no build of 'nothing'; choose one of: ccl"), ("rgb2gray", "no build of")]
+    ("core", "sentence"), [("nothing", "no build of 'nothing'; choose one of: ccl"), ("lidar_pwm", "no build of")]
 )
 def test_a_core_without_builds_is_one_sentence(core: str, sentence: str) -> None:
     with pytest.raises(UserError, match=sentence):

@@ -52,7 +52,7 @@ def test_simulations(tmp_path: Path) -> None:
         ("rounding", "23'd16384", "23'd16383", CPU_SECONDS, "killed"),
         (
             "loop",
-            "wire        advance;",
+            "wire             advance;",
             "wire advance; reg l; initial l = 0; always @(l) l = !l;\ninitial l = 1;",
             3,
             "hang",
