@@ -60,6 +60,7 @@ module overlay_pad (
   reg signed [13:0]
       centre_x_3_reg, centre_y_3_reg, low_x_3_reg, high_x_3_reg, low_y_3_reg, high_y_3_reg;
   reg signed [14:0] dx_3_reg, dy_3_reg;
+  reg [14:0] dx_size_3_reg, dy_size_3_reg;
   reg signed [28:0] cx_dy_3_reg, cy_dx_3_reg;
   // The cross at the centre: ends of its long arms, sides of its thin ones.
   reg signed [14:0] long_left_4_reg, long_right_4_reg, long_top_4_reg, long_bottom_4_reg;
@@ -70,8 +71,6 @@ module overlay_pad (
   reg [14:0] reach_4_reg;
 
   wire signed [30:0] first = {{2{cy_dx_3_reg[28]}}, cy_dx_3_reg} - {{2{cx_dy_3_reg[28]}}, cx_dy_3_reg};
-  wire [14:0] dx_size = dx_3_reg[14] ? -dx_3_reg : dx_3_reg;
-  wire [14:0] dy_size = dy_3_reg[14] ? -dy_3_reg : dy_3_reg;
 
   wire sample_1 = start && !hold;
   wire sample_2 = advance && start_1_reg[1];
@@ -105,6 +104,8 @@ module overlay_pad (
       high_y_3_reg   <= dy_2_reg[14] ? centre_y_2_reg : tip_y_2_reg;
       dx_3_reg       <= dx_2_reg;
       dy_3_reg       <= dy_2_reg;
+      dx_size_3_reg  <= dx_2_reg[14] ? -dx_2_reg : dx_2_reg;
+      dy_size_3_reg  <= dy_2_reg[14] ? -dy_2_reg : dy_2_reg;
       cx_dy_3_reg    <= centre_x_2_reg * dy_2_reg;
       cy_dx_3_reg    <= centre_y_2_reg * dx_2_reg;
     end
@@ -125,7 +126,7 @@ module overlay_pad (
       dx_4_reg       <= dx_3_reg;
       dy_4_reg       <= dy_3_reg;
       first_4_reg    <= first;
-      reach_4_reg    <= dx_size > dy_size ? dx_size : dy_size;
+      reach_4_reg    <= dx_size_3_reg > dy_size_3_reg ? dx_size_3_reg : dy_size_3_reg;
     end
     if (rst) show_4_reg <= 1'b0;
   end
