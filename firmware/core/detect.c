@@ -202,14 +202,14 @@ static int follow(const struct detect_context *context, struct pad_estimate *pad
     struct search_round *round = &context->scratch->round;
     struct pad_estimate last = {.doubt = 0.0};
     struct hypothesis there = {.fused = hint->last_fused, .ringless = hint->last_ringless, .followed = true};
-    // Every other frame is the search's alone, if the pad is not where it was.
-    const bool tries = hint->last != NULL && !context->scratch->lost;
+    // A step of light takes a pad away for one frame; if it stays away, every other one is the search's alone.
+    const int missed = context->scratch->missed;
+    const bool tries = hint->last != NULL && (missed == 0 || missed % 2 != 0);
 
     if (tries) {
         there.view = *hint->last;
     }
     const bool known = tries && attempt(context, &there, NULL, &last) == 0;
-    context->scratch->lost = tries && !known;
     if (known && last.doubt < at_least(DOUBT_SAME * hint->last_doubt, DOUBT_NONE)) {
         *round = no_round;
         *pad = last;
@@ -244,6 +244,7 @@ int detect_pad(const struct landing_record *record, const struct camera *camera,
     };
     const int result = follow(&context, pad);
 
+    scratch->missed = result == 0 || hint->last == NULL ? 0 : scratch->missed + 1;
     scratch->work = work.done;
     return result;
 }

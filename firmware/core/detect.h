@@ -70,7 +70,7 @@ struct search_round {
 
 struct detect_scratch {
     struct search_round round;
-    bool lost; // the last view was tried in the frame before, and nothing was there
+    int missed; // frames in a row with a last view and no pad
     int work; // that the last frame took: see work.h
     int count;
     struct candidate candidates[LANDING_RECORD_MAX_OBJECTS];

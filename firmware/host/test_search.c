@@ -114,18 +114,36 @@ static void test_nothing_where_it_was(void)
     const struct scene before = {.height_m = 1.0, .right_m = -0.3, .heading_deg = 20.0};
     const struct pad_view last = scene_view(&before);
     const struct detect_hint hint = {.tilt = {.sigma = 0.025}, .height_m = 1.0, .last = &last, .last_doubt = 0.1};
+    const double followed = 0.98 * hint.last_doubt;
     int frames = 1;
 
-    test_case("where nothing is, the search has every other frame for itself");
+    test_case("where nothing is twice, the search has every other frame for itself");
     scene_clear(&record);
-    paint_decoy(-0.62, 0.01, 20.0);
+    paint_decoys();
     scene_paint_pad(&record, &scene);
     memset(&scratch, 0, sizeof scratch);
     while (frames < TURNS && !find_with(&hint)) {
-        CHECK(scratch.lost == (frames % 2 == 1));
+        CHECK(scratch.missed == frames);
         frames++;
     }
-    CHECK(frames <= 4);
+    CHECK(frames > 1 && frames <= 4);
+
+    test_case("one that comes back after a frame is followed at once");
+    scene_clear(&record);
+    paint_decoys();
+    memset(&scratch, 0, sizeof scratch);
+    CHECK(!find_with(&hint));
+    CHECK(scratch.missed == 1 && scratch.round.under_way);
+    scene_paint_pad(&record, &before);
+    CHECK(find_with(&hint));
+    CHECK(scratch.missed == 0 && !scratch.round.under_way);
+    CHECK(fabs(pad.search_doubt - followed) < 1e-9);
+
+    test_case("and no sooner than in the next frame but one when it was away for longer");
+    scratch.missed = 2;
+    CHECK(!find_with(&hint) || fabs(pad.search_doubt - followed) > 1e-9);
+    scratch.missed = 3;
+    CHECK(find_with(&hint) && fabs(pad.search_doubt - followed) < 1e-9);
 }
 
 static bool upper_arc(double x_mm, double y_mm)

@@ -194,6 +194,15 @@ def test_a_blinded_clip_is_bridged_by_the_tracker() -> None:
     assert len(untracked) <= 8
 
 
+def test_after_a_step_of_light_one_frame_is_missed() -> None:
+    (unit,) = rendered_units("light_step")
+    unit = replace(unit, shots=unit.shots[9:18])
+    (production,) = [variant for variant in load_variants() if variant.name == "production"]
+    (rows,) = compare(unit, [production])
+    # 0009 is the first of all and has no thresholds; at 0010 and 0015 the light steps.
+    assert [row.name for row in rows if row.missed] == ["0010", "0015"]
+
+
 def test_a_picture_counts_after_it_has_settled_and_a_clip_frame_by_frame() -> None:
     film = descent()
     answer = golden(film)
