@@ -29,6 +29,7 @@ SQUARE_MM ?=
 RADIAL ?=
 TARGET ?=
 RUNS ?=
+ROUNDS ?=
 SECONDS ?=
 KEEP ?=
 JOBS ?= 2
@@ -69,6 +70,10 @@ test-full: setup ## Everything, a line an item, and the table of what each core 
 .PHONY: signoff
 signoff: setup ## The table of what each core passed, from the results of the last runs
 	@$(PYTHON) -m scripts.signoff
+
+.PHONY: bench
+bench: setup ## How fast the parts are, as ratios measured side by side: [ROUNDS=n]
+	@$(PYTHON) -m scripts.bench $(if $(ROUNDS),--rounds "$(ROUNDS)")
 
 .PHONY: synth
 synth: setup ## Area of one core or all, against constraints/budgets.toml (yosys, xc7): [CORE=name]
