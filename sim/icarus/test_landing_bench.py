@@ -55,12 +55,12 @@ QUICK = [
 ]
 SLOW = [
     Fault("video_capture", "c_data_reg <= b_data_reg", "c_data_reg <= {b_data_reg[23:1], 1'b0}", "stage rgb, frame 0"),
-    Fault("gaussian5x5", "{7'b0, sum_half}", "8'd0", "stage smooth, frame 0"),
+    Fault("gaussian5x5", "whole + {7'b0, half}", "whole", "stage smooth, frame 0"),
     Fault("threshold_stats", "factor_reg * t1_spread_reg", "factor_reg * t1_spread_reg + 17'd1", "stage stats, frame"),
     Fault("threshold_stats", ".m_payload({", ".m_payload({unused_sof, ", "Icarus does not build it"),
     Fault("erode3x3", ".DILATE    (0)", ".DILATE    (1)", "stage eroded, frame"),
     Fault("median5x5", "5'd13", "5'd12", "stage median, frame"),
-    Fault("morphology3x3", "column != 3'b000", "column[1:0] != 2'b00", "stage dilated, frame"),
+    Fault("morphology3x3", "column[3*pixel+:3] != 3'b000", "column[3*pixel+:2] != 2'b00", "stage dilated, frame"),
     Fault("rgb2gray", "if (rst) valid_reg <= 3'b0;", "", "in Icarus, stage gray: tvalid x"),
     Fault("result_writer", "start_publish = state_reg == SETTLE &&", "start_publish = 1'b0 &&", "record, frame 0"),
     Fault("result_writer", "wlast = beats_left_reg == 8'd0", "wlast = beats_left_reg == 8'd1", "in Icarus, m_axi"),
