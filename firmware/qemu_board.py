@@ -21,6 +21,8 @@ FREE = 0x01F0_0000
 _PC, STATUS = 15, 25
 _SYSTEM_MODE = 0x5F
 """Of CPSR; fast interrupts are off."""
+_RUNNING_PRIORITY, _IDLE = 0xF8F0_0114, 0xFF
+"""Of the interrupt that is being handled, and of none."""
 _MEMORY = re.compile(rb"\$([0-9a-f]{8})#")
 
 
@@ -95,21 +97,33 @@ class Board:
             registers: What the first registers hold by then.
             code: Instructions that are put there before.
         """
+        deadline = time.monotonic() + LIMIT_S
+        while not self._jump_unless_in_a_handler(address, registers, code):
+            assert time.monotonic() < deadline, "it is always in an interrupt's handler"
+
+    def _jump_unless_in_a_handler(self, address: int, registers: Sequence[int], code: Sequence[int]) -> bool:
+        """True when done. Who leaves a handler for good gets no further interrupt."""
         with self._door() as wire:
-            if code:
-                data = b"".join(word.to_bytes(4, "little") for word in code)
-                self._ask(wire, f"M{address:x},{len(data):x}:{data.hex()}", b"$OK#")
-            values = {**dict(enumerate(registers)), STATUS: _SYSTEM_MODE, _PC: address}
-            for number, value in values.items():
-                self._ask(wire, f"P{number:x}={value.to_bytes(4, 'little').hex()}", b"$OK#")
+            idle = self._word(wire, _RUNNING_PRIORITY) == _IDLE
+            if idle:
+                if code:
+                    data = b"".join(word.to_bytes(4, "little") for word in code)
+                    self._ask(wire, f"M{address:x},{len(data):x}:{data.hex()}", b"$OK#")
+                values = {**dict(enumerate(registers)), STATUS: _SYSTEM_MODE, _PC: address}
+                for number, value in values.items():
+                    self._ask(wire, f"P{number:x}={value.to_bytes(4, 'little').hex()}", b"$OK#")
             self._ask(wire, "D", b"$OK#")
+        return idle
 
     def word(self, address: int) -> int:
         """What the processor would read there."""
         with self._door() as wire:
-            answer = self._ask(wire, f"m{address:x},4", b"#", of_memory=True)
+            value = self._word(wire, address)
             self._ask(wire, "D", b"$OK#")
-        return int.from_bytes(bytes.fromhex(answer), "little")
+        return value
+
+    def _word(self, wire: socket.socket, address: int) -> int:
+        return int.from_bytes(bytes.fromhex(self._ask(wire, f"m{address:x},4", b"#", of_memory=True)), "little")
 
     def register(self, number: int) -> int:
         """What a register of the processor holds; STATUS is CPSR."""
