@@ -9,7 +9,8 @@ module ccl_send_queue (
     input wire         found_start,
     input wire         found,
     input wire         found_end,
-    input wire [235:0] found_record,
+    input wire [225:0] found_record,
+    input wire   [9:0] found_max_y,
     input wire         m_axis_tready
 );
 

@@ -17,13 +17,14 @@
 //                tuser marks the first beat of the next frame. A frame cut off within 6 pixels is filtered with the
 //                cfg_min_area of the next one.
 // Limits         MAX_WIDTH and MAX_HEIGHT from 4. MOMENTS 0: only area and box; 1: and sums of x, y; 2: and of xx, yy, xy.
-//                Sums that are not built are 0 in the beat.
+//                AREA 0, with MOMENTS 0: only the box, and cfg_min_area is not looked at. What is not built is 0 in the beat.
 
 `default_nettype none
 
 module ccl #(
     parameter MAX_WIDTH  = 1280,
     parameter MAX_HEIGHT = 720,
+    parameter AREA       = 1,
     parameter MOMENTS    = 2
 ) (
     input wire clk,
@@ -60,6 +61,9 @@ module ccl #(
         if (MOMENTS < 0 || MOMENTS > 2) begin : g_moments
             ERROR_moments_must_be_0_to_2 error_instance ();
         end
+        if (AREA != 1 && (AREA != 0 || MOMENTS != 0)) begin : g_area
+            ERROR_area_must_be_1_or_without_moments_0 error_instance ();
+        end
     endgenerate
 
     // Bits that hold 0 to `greatest`.
@@ -83,7 +87,8 @@ module ccl #(
     localparam SUM_XX_BITS = bits_for(H * ((W - 1) * W * (2 * W - 1) / 6));
     localparam SUM_YY_BITS = bits_for(W * ((H - 1) * H * (2 * H - 1) / 6));
     localparam SUM_XY_BITS = bits_for((W * (W - 1) / 2) * (H * (H - 1) / 2));
-    localparam RECORD_BITS = AREA_BITS + 2 * (X_BITS + Y_BITS) +
+    localparam RECORD_BITS = 2 * X_BITS + Y_BITS +
+        (AREA != 0 ? AREA_BITS : 0) +
         (MOMENTS >= 1 ? SUM_X_BITS + SUM_Y_BITS : 0) +
         (MOMENTS >= 2 ? SUM_XX_BITS + SUM_YY_BITS + SUM_XY_BITS : 0);
     // Live slots: runs of the line above from p on and runs of the current line up to c, at most W / 2 + 2 in all.
@@ -91,6 +96,7 @@ module ccl #(
 
     wire almost_full, found, found_start, found_end;
     wire [RECORD_BITS-1:0] found_record;
+    wire [Y_BITS-1:0] found_max_y;
 
     // Between the last pixel of a frame and its trailer no pixel is taken.
     reg closing_reg;
@@ -129,7 +135,8 @@ module ccl #(
     );
 
     reg label_zeros_reg;
-    reg [31:0] min_area_reg;
+    // More than any area if cfg_min_area is.
+    reg [AREA_BITS:0] min_area_reg;
     wire label_zeros = sof ? cfg_label_zeros : label_zeros_reg;
 
     always @(posedge clk) begin
@@ -139,7 +146,7 @@ module ccl #(
         if (found_end) closing_reg <= 1'b0;
         if (beat && sof) begin
             label_zeros_reg <= cfg_label_zeros;
-            min_area_reg    <= cfg_min_area;
+            min_area_reg    <= {|cfg_min_area[31:AREA_BITS], cfg_min_area[AREA_BITS-1:0]};
         end
         if (rst) begin
             frame_started <= 1'b0;
@@ -203,9 +210,11 @@ module ccl #(
         .save_slot(save_slot)
     );
 
+    wire [Y_BITS-1:0] line;
     wire [RECORD_BITS-1:0] run_record;
 
     ccl_run #(
+        .AREA(AREA),
         .MOMENTS(MOMENTS),
         .X_BITS(X_BITS),
         .Y_BITS(Y_BITS),
@@ -223,10 +232,12 @@ module ccl #(
         .last_in(column_last),
         .set_in(column_set),
         .begin_in(column_begin),
+        .line(line),
         .record(run_record)
     );
 
     ccl_store #(
+        .AREA(AREA),
         .MOMENTS(MOMENTS),
         .X_BITS(X_BITS),
         .Y_BITS(Y_BITS),
@@ -251,15 +262,18 @@ module ccl #(
         .save_slot(save_slot),
         .start_frame(start_1_reg),
         .end_frame(end_1_reg),
+        .line(line),
         .run_record(run_record),
         .min_area(min_area_reg),
         .found(found),
         .found_start(found_start),
         .found_end(found_end),
-        .found_record(found_record)
+        .found_record(found_record),
+        .found_max_y(found_max_y)
     );
 
     ccl_send #(
+        .AREA(AREA),
         .MOMENTS(MOMENTS),
         .X_BITS(X_BITS),
         .Y_BITS(Y_BITS),
@@ -277,6 +291,7 @@ module ccl #(
         .found(found),
         .found_end(found_end),
         .found_record(found_record),
+        .found_max_y(found_max_y),
         .almost_full(almost_full),
         .m_axis_tdata(m_axis_tdata),
         .m_axis_tvalid(m_axis_tvalid),

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Union of two component records. Combinational.
 //
-// A record is, from bit 0: area, ~least x, ~least y, greatest x, greatest y, then (MOMENTS >= 1) sum x, sum y, then
+// A record is, from bit 0: ~least x, ~least y, greatest x, then (AREA != 0) area, then (MOMENTS >= 1) sum x, sum y, then
 // (MOMENTS >= 2) sum xx, sum yy, sum xy. The least corner is stored inverted, so that every field is a sum or a
 // maximum and the record of no pixels is all zeros. The sums cannot overflow: their widths hold a whole white frame.
+// The greatest y is not in it: a component is complete in the line after it.
 
 `default_nettype none
 
 module ccl_merge #(
+    parameter AREA        = 1,
     parameter MOMENTS     = 2,
     parameter X_BITS      = 11,
     parameter Y_BITS      = 10,
@@ -17,29 +19,29 @@ module ccl_merge #(
     parameter SUM_XX_BITS = 39,
     parameter SUM_YY_BITS = 38,
     parameter SUM_XY_BITS = 38,
-    parameter RECORD_BITS = 236
+    parameter RECORD_BITS = 226
 ) (
     input  wire [RECORD_BITS-1:0] a,
     input  wire [RECORD_BITS-1:0] b,
     output wire [RECORD_BITS-1:0] y
 );
-    localparam MIN_X  = AREA_BITS;
-    localparam MIN_Y  = MIN_X + X_BITS;
+    localparam MIN_Y  = X_BITS;
     localparam MAX_X  = MIN_Y + Y_BITS;
-    localparam MAX_Y  = MAX_X + X_BITS;
-    localparam SUM_X  = MAX_Y + Y_BITS;
+    localparam AREA_LSB = MAX_X + X_BITS;
+    localparam SUM_X  = AREA_LSB + AREA_BITS;
     localparam SUM_Y  = SUM_X + SUM_X_BITS;
     localparam SUM_XX = SUM_Y + SUM_Y_BITS;
     localparam SUM_YY = SUM_XX + SUM_XX_BITS;
     localparam SUM_XY = SUM_YY + SUM_YY_BITS;
 
-    assign y[0+:AREA_BITS] = a[0+:AREA_BITS] + b[0+:AREA_BITS];
-    assign y[MIN_X+:X_BITS] = a[MIN_X+:X_BITS] > b[MIN_X+:X_BITS] ? a[MIN_X+:X_BITS] : b[MIN_X+:X_BITS];
+    assign y[0+:X_BITS] = a[0+:X_BITS] > b[0+:X_BITS] ? a[0+:X_BITS] : b[0+:X_BITS];
     assign y[MIN_Y+:Y_BITS] = a[MIN_Y+:Y_BITS] > b[MIN_Y+:Y_BITS] ? a[MIN_Y+:Y_BITS] : b[MIN_Y+:Y_BITS];
     assign y[MAX_X+:X_BITS] = a[MAX_X+:X_BITS] > b[MAX_X+:X_BITS] ? a[MAX_X+:X_BITS] : b[MAX_X+:X_BITS];
-    assign y[MAX_Y+:Y_BITS] = a[MAX_Y+:Y_BITS] > b[MAX_Y+:Y_BITS] ? a[MAX_Y+:Y_BITS] : b[MAX_Y+:Y_BITS];
 
     generate
+        if (AREA != 0) begin : g_area
+            assign y[AREA_LSB+:AREA_BITS] = a[AREA_LSB+:AREA_BITS] + b[AREA_LSB+:AREA_BITS];
+        end
         if (MOMENTS >= 1) begin : g_first
             assign y[SUM_X+:SUM_X_BITS] = a[SUM_X+:SUM_X_BITS] + b[SUM_X+:SUM_X_BITS];
             assign y[SUM_Y+:SUM_Y_BITS] = a[SUM_Y+:SUM_Y_BITS] + b[SUM_Y+:SUM_Y_BITS];

@@ -3,11 +3,13 @@
 // x*x, x*y and y*y of the scan position are kept by differences.
 //
 // `column_in` steps the scan position by one pixel; `restart_in` puts it to the top left pixel. The pixel counts if
-// `set_in`, and begins a new run if `begin_in`. `record` (format: ccl_merge) holds the run up to that pixel two cycles later.
+// `set_in`, and begins a new run if `begin_in`. `record` (format: ccl_merge) holds the run up to that pixel two cycles later, `line` is the pixel's line one cycle
+// later; after the last pixel it is the number of lines.
 
 `default_nettype none
 
 module ccl_run #(
+    parameter AREA        = 1,
     parameter MOMENTS     = 2,
     parameter X_BITS      = 11,
     parameter Y_BITS      = 10,
@@ -17,7 +19,7 @@ module ccl_run #(
     parameter SUM_XX_BITS = 39,
     parameter SUM_YY_BITS = 38,
     parameter SUM_XY_BITS = 38,
-    parameter RECORD_BITS = 236
+    parameter RECORD_BITS = 226
 ) (
     input  wire                   clk,
     input  wire                   restart_in,
@@ -25,10 +27,9 @@ module ccl_run #(
     input  wire                   last_in,
     input  wire                   set_in,
     input  wire                   begin_in,
+    output wire [     Y_BITS-1:0] line,
     output wire [RECORD_BITS-1:0] record
 );
-    // What a single line can add up to; the higher bits of each sum are constant 0.
-    localparam [AREA_BITS-1:0] LENGTH_MASK = ~({AREA_BITS{1'b1}} << (X_BITS + 1));
 
     reg restart, column, last_of_line, count, begin_run;
     always @(posedge clk) begin
@@ -41,7 +42,6 @@ module ccl_run #(
 
     reg [X_BITS-1:0] x_reg, first_x_reg, last_x_reg;
     reg [Y_BITS-1:0] y_reg, line_reg;
-    reg [AREA_BITS-1:0] length_reg;
 
     always @(posedge clk) begin
         if (column) begin
@@ -49,7 +49,6 @@ module ccl_run #(
             if (last_of_line) y_reg <= y_reg + 1'b1;
         end
         if (count) begin
-            length_reg <= ((begin_run ? 0 : length_reg) + 1'b1) & LENGTH_MASK;
             if (begin_run) first_x_reg <= x_reg;
             last_x_reg <= x_reg;
             line_reg   <= y_reg;
@@ -60,11 +59,22 @@ module ccl_run #(
         end
     end
 
-    localparam BOX_END = AREA_BITS + 2 * (X_BITS + Y_BITS);
-    localparam FIRST_END = BOX_END + SUM_X_BITS + SUM_Y_BITS;
-    assign record[BOX_END-1:0] = {line_reg, last_x_reg, ~line_reg, ~first_x_reg, length_reg};
+    localparam BOX_END = 2 * X_BITS + Y_BITS;
+    localparam AREA_END = BOX_END + AREA_BITS;
+    localparam FIRST_END = AREA_END + SUM_X_BITS + SUM_Y_BITS;
+    assign line = y_reg;
+    assign record[BOX_END-1:0] = {last_x_reg, ~line_reg, ~first_x_reg};
 
+    // Masks: what a single line can add up to; the higher bits of each sum are constant 0.
     generate
+        if (AREA != 0) begin : g_area
+            localparam [AREA_BITS-1:0] LENGTH_MASK = ~({AREA_BITS{1'b1}} << (X_BITS + 1));
+            reg [AREA_BITS-1:0] length_reg;
+            always @(posedge clk) begin
+                if (count) length_reg <= ((begin_run ? 0 : length_reg) + 1'b1) & LENGTH_MASK;
+            end
+            assign record[AREA_END-1:BOX_END] = length_reg;
+        end
         if (MOMENTS >= 1) begin : g_first
             localparam [SUM_X_BITS-1:0] SUM_X_MASK = ~({SUM_X_BITS{1'b1}} << (2 * X_BITS - 1));
             localparam [SUM_Y_BITS-1:0] SUM_Y_MASK = ~({SUM_Y_BITS{1'b1}} << (X_BITS + Y_BITS));
@@ -79,7 +89,7 @@ module ccl_run #(
                     sum_y_reg <= ((begin_run ? 0 : sum_y_reg) + y) & SUM_Y_MASK;
                 end
             end
-            assign record[FIRST_END-1:BOX_END] = {sum_y_reg, sum_x_reg};
+            assign record[FIRST_END-1:AREA_END] = {sum_y_reg, sum_x_reg};
         end
         if (MOMENTS >= 2) begin : g_second
             localparam [SUM_XX_BITS-1:0] SUM_XX_MASK = ~({SUM_XX_BITS{1'b1}} << (3 * X_BITS - 1));

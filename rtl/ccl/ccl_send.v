@@ -5,6 +5,7 @@
 `default_nettype none
 
 module ccl_send #(
+    parameter AREA        = 1,
     parameter MOMENTS     = 2,
     parameter X_BITS      = 11,
     parameter Y_BITS      = 10,
@@ -14,7 +15,7 @@ module ccl_send #(
     parameter SUM_XX_BITS = 39,
     parameter SUM_YY_BITS = 38,
     parameter SUM_XY_BITS = 38,
-    parameter RECORD_BITS = 236
+    parameter RECORD_BITS = 226
 ) (
     input wire clk,
     input wire rst,
@@ -23,6 +24,7 @@ module ccl_send #(
     input wire                   found,
     input wire                   found_end,
     input wire [RECORD_BITS-1:0] found_record,
+    input wire [     Y_BITS-1:0] found_max_y,
 
     output reg almost_full,
 
@@ -39,19 +41,20 @@ module ccl_send #(
     // At one component a clock: five in ccl_store, one in ccl_lists, one leaves ccl_scan as almost_full rises.
     localparam RESERVE = 7;
 
-    reg [RECORD_BITS+1:0] queue[0:DEPTH-1];
+    reg [RECORD_BITS+Y_BITS+1:0] queue[0:DEPTH-1];
     reg [DEPTH_BITS:0] write_reg, read_reg;
     reg first_reg;
     wire [DEPTH_BITS:0] count = write_reg - read_reg;
     wire push = found || found_end;
     wire pop = m_axis_tvalid && m_axis_tready;
     wire [RECORD_BITS-1:0] record;
+    wire [Y_BITS-1:0] record_max_y;
 
-    assign {m_axis_tuser, m_axis_tlast, record} = queue[read_reg[DEPTH_BITS-1:0]];
+    assign {m_axis_tuser, m_axis_tlast, record_max_y, record} = queue[read_reg[DEPTH_BITS-1:0]];
     assign m_axis_tvalid = count != 0;
 
     always @(posedge clk) begin
-        if (push) queue[write_reg[DEPTH_BITS-1:0]] <= {first_reg, found_end, found_record};
+        if (push) queue[write_reg[DEPTH_BITS-1:0]] <= {first_reg, found_end, found_max_y, found_record};
     end
 
     always @(posedge clk) begin
@@ -70,29 +73,35 @@ module ccl_send #(
         end
     end
 
-    localparam MIN_X = AREA_BITS;
-    localparam MIN_Y = MIN_X + X_BITS;
+    localparam MIN_Y = X_BITS;
     localparam MAX_X = MIN_Y + Y_BITS;
-    localparam MAX_Y = MAX_X + X_BITS;
-    localparam SUM_X = MAX_Y + Y_BITS;
+    localparam AREA_LSB = MAX_X + X_BITS;
+    localparam SUM_X = AREA_LSB + AREA_BITS;
     localparam SUM_Y = SUM_X + SUM_X_BITS;
     localparam SUM_XX = SUM_Y + SUM_Y_BITS;
     localparam SUM_YY = SUM_XX + SUM_XX_BITS;
     localparam SUM_XY = SUM_YY + SUM_YY_BITS;
 
     // The trailer is all zeros.
-    wire [X_BITS-1:0] min_x = ~record[MIN_X+:X_BITS] & {X_BITS{!m_axis_tlast}};
+    wire [X_BITS-1:0] min_x = ~record[0+:X_BITS] & {X_BITS{!m_axis_tlast}};
     wire [Y_BITS-1:0] min_y = ~record[MIN_Y+:Y_BITS] & {Y_BITS{!m_axis_tlast}};
+    wire [Y_BITS-1:0] max_y = record_max_y & {Y_BITS{!m_axis_tlast}};
 
-    assign m_axis_tdata[OBJECT_SUM_X_LSB-1:0] = {
+    assign m_axis_tdata[OBJECT_SUM_X_LSB-1:OBJECT_BOX_MIN_X_LSB] = {
         {OBJECT_RESERVED_0_WIDTH{1'b0}},
-        {{(OBJECT_BOX_MAX_Y_WIDTH - Y_BITS) {1'b0}}, record[MAX_Y+:Y_BITS]},
+        {{(OBJECT_BOX_MAX_Y_WIDTH - Y_BITS) {1'b0}}, max_y},
         {{(OBJECT_BOX_MAX_X_WIDTH - X_BITS) {1'b0}}, record[MAX_X+:X_BITS]},
         {{(OBJECT_BOX_MIN_Y_WIDTH - Y_BITS) {1'b0}}, min_y},
-        {{(OBJECT_BOX_MIN_X_WIDTH - X_BITS) {1'b0}}, min_x},
-        {{(OBJECT_AREA_WIDTH - AREA_BITS) {1'b0}}, record[0+:AREA_BITS]}
+        {{(OBJECT_BOX_MIN_X_WIDTH - X_BITS) {1'b0}}, min_x}
     };
     generate
+        if (AREA != 0) begin : g_area
+            assign m_axis_tdata[OBJECT_BOX_MIN_X_LSB-1:0] = {
+                {(OBJECT_AREA_WIDTH - AREA_BITS) {1'b0}}, record[AREA_LSB+:AREA_BITS]
+            };
+        end else begin : g_no_area
+            assign m_axis_tdata[OBJECT_BOX_MIN_X_LSB-1:0] = 0;
+        end
         if (MOMENTS >= 1) begin : g_first
             assign m_axis_tdata[OBJECT_SUM_XX_LSB-1:OBJECT_SUM_X_LSB] = {
                 {{(OBJECT_SUM_Y_WIDTH - SUM_Y_BITS) {1'b0}}, record[SUM_Y+:SUM_Y_BITS]},

@@ -9,6 +9,7 @@
 `default_nettype none
 
 module ccl_store #(
+    parameter AREA        = 1,
     parameter MOMENTS     = 2,
     parameter X_BITS      = 11,
     parameter Y_BITS      = 10,
@@ -18,7 +19,7 @@ module ccl_store #(
     parameter SUM_XX_BITS = 39,
     parameter SUM_YY_BITS = 38,
     parameter SUM_XY_BITS = 38,
-    parameter RECORD_BITS = 236,
+    parameter RECORD_BITS = 226,
     parameter SLOT_BITS   = 10
 ) (
     input wire clk,
@@ -36,14 +37,16 @@ module ccl_store #(
     input wire [SLOT_BITS-1:0] save_slot,
     input wire                 start_frame,
     input wire                 end_frame,
+    input wire [Y_BITS-1:0]    line,        // of the command
 
     input wire [RECORD_BITS-1:0] run_record,  // stage 2
-    input wire [           31:0] min_area,    // of the frame that starts next; counts from its start_frame on
+    input wire [    AREA_BITS:0] min_area,    // of the frame that starts next; counts from its start_frame on
 
     output reg                    found,
     output reg                    found_start,  // start of frame
     output reg                    found_end,    // end of frame; the record is that of no pixels
-    output reg  [RECORD_BITS-1:0] found_record
+    output reg  [RECORD_BITS-1:0] found_record,
+    output reg  [     Y_BITS-1:0] found_max_y
 );
     localparam SLOTS = 1 << SLOT_BITS;
 
@@ -74,6 +77,7 @@ module ccl_store #(
     wire [RECORD_BITS-1:0] sum_2, sum_3;
 
     ccl_merge #(
+        .AREA(AREA),
         .MOMENTS(MOMENTS),
         .X_BITS(X_BITS),
         .Y_BITS(Y_BITS),
@@ -91,6 +95,7 @@ module ccl_store #(
     );
 
     ccl_merge #(
+        .AREA(AREA),
         .MOMENTS(MOMENTS),
         .X_BITS(X_BITS),
         .Y_BITS(Y_BITS),
@@ -125,13 +130,28 @@ module ccl_store #(
         found_record    <= accumulator_reg;
     end
 
-    // Components of a frame that was cut off are still on their way when the next one starts.
-    reg [31:0] min_area_4_reg;
+    // A component is complete in the line after its last one.
+    reg [Y_BITS-1:0] max_y_2_reg, max_y_3_reg, max_y_4_reg;
     always @(posedge clk) begin
-        if (start_4_reg) min_area_4_reg <= min_area;
+        max_y_2_reg <= line - 1'b1;
+        max_y_3_reg <= max_y_2_reg;
+        max_y_4_reg <= max_y_3_reg;
+        found_max_y <= max_y_4_reg;
     end
 
-    wire [31:0] area_4 = {{(32 - AREA_BITS) {1'b0}}, accumulator_reg[AREA_BITS-1:0]};
+    wire large_4;
+    generate
+        if (AREA != 0) begin : g_area
+            // Components of a frame that was cut off are still on their way when the next one starts.
+            reg [AREA_BITS:0] min_area_4_reg;
+            always @(posedge clk) begin
+                if (start_4_reg) min_area_4_reg <= min_area;
+            end
+            assign large_4 = {1'b0, accumulator_reg[2*X_BITS+Y_BITS+:AREA_BITS]} >= min_area_4_reg;
+        end else begin : g_no_area
+            assign large_4 = 1'b1;
+        end
+    endgenerate
 
     always @(posedge clk) begin
         save_2_reg     <= save;
@@ -149,7 +169,7 @@ module ccl_store #(
         start_4_reg    <= start_3_reg;
         end_4_reg      <= end_3_reg;
 
-        found          <= complete_4_reg && area_4 >= min_area_4_reg;
+        found          <= complete_4_reg && large_4;
         found_start    <= start_4_reg;
         found_end      <= end_4_reg;
         if (rst) begin

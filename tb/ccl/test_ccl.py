@@ -23,6 +23,7 @@ from tb.common.stream import Beat, PulseCounter, StreamBench, Taken, frame_beats
 
 MAX_WIDTH = parameter("MAX_WIDTH", 1280)
 MAX_HEIGHT = parameter("MAX_HEIGHT", 720)
+AREA = parameter("AREA", 1)
 MOMENTS = parameter("MOMENTS", 2)
 CORE = VideoCore(golden=lambda image: image, bits_in=1, reach=0, limits=SizeLimits(1, 1, MAX_WIDTH, MAX_HEIGHT))
 
@@ -54,13 +55,18 @@ class Config:
             self._drive(self._rng.getrandbits(32), self._rng.getrandbits(1))
 
 
-def expected_objects(image: np.ndarray, min_area: int, zeros: int) -> np.ndarray:
-    """Golden objects, without the sums that this build leaves out."""
-    objects = ccl(image, min_area, bool(zeros))
+def golden_objects(image: np.ndarray, min_area: int, zeros: int) -> np.ndarray:
+    """Golden objects of those that this build sends."""
+    return ccl(image, min_area if AREA else 0, bool(zeros))
+
+
+def as_built(objects: np.ndarray) -> np.ndarray:
+    """Golden objects, without what this build leaves out."""
+    left_out = [] if AREA else ["area"]
     for level, names in {1: ["sum_x", "sum_y"], 2: ["sum_xx", "sum_yy", "sum_xy"]}.items():
-        if level > MOMENTS:
-            for name in names:
-                objects[name] = 0
+        left_out += names if level > MOMENTS else []
+    for name in left_out:
+        objects[name] = 0
     return objects
 
 
@@ -85,14 +91,14 @@ def check_objects(beats: list[Taken], expected: np.ndarray, name: str) -> None:
 def due_objects(frame: SentFrame, min_area: int, zeros: int) -> np.ndarray:
     """Golden objects of a frame; of one that is cut off those that its pixels show to be whole."""
     if frame.complete:
-        return expected_objects(frame.image(), min_area, zeros)
+        return as_built(golden_objects(frame.image(), min_area, zeros))
     # Whole is what stays as it is whatever else comes; what reaches the last line comes with the end of the frame.
     missing = (np.arange(frame.width * frame.height) >= len(frame.pixels)).reshape(frame.height, frame.width)
     without, with_all = (np.where(missing, value, frame.image()) for value in (zeros, 1 - zeros))
-    others = {item.tobytes() for item in expected_objects(with_all, min_area, zeros)}
-    objects = expected_objects(without, min_area, zeros)
+    others = {item.tobytes() for item in golden_objects(with_all, min_area, zeros)}
+    objects = golden_objects(without, min_area, zeros)
     due = [item.tobytes() in others and item["box_max_y"] < frame.height - 1 for item in objects]
-    return objects[np.array(due, bool)]
+    return as_built(objects[np.array(due, bool)])
 
 
 def check_frames(taken: list[Taken], sent: list[SentFrame], configs: Iterator[tuple[int, int]]) -> None:

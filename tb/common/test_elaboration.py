@@ -66,6 +66,7 @@ LIMITS = [
     *limits("ccl", "MAX_WIDTH", (4, 32768), "ERROR_max_width_must_be_4_to_32768"),
     *limits("ccl", "MAX_HEIGHT", (4, 32768), "ERROR_max_height_must_be_4_to_32768"),
     *limits("ccl", "MOMENTS", (0, 2), "ERROR_moments_must_be_0_to_2"),
+    *(Limit("ccl", "AREA", illegal, 1, "ERROR_area_must_be_1_or_without_moments_0") for illegal in (0, 2)),
     *limits("result_writer", "MAX_OBJECTS", (1, 256), "ERROR_max_objects_must_be_1_to_256"),
     *limits("result_writer", "MAX_OUTSTANDING", (1, 255), "ERROR_max_outstanding_must_be_1_to_255"),
     Limit("lidar_pwm", "MIN_MM", 0, 1, "ERROR_min_mm_must_be_at_least_1_and_below_max_mm"),

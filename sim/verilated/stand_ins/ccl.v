@@ -7,6 +7,7 @@
 module ccl #(
     parameter MAX_WIDTH  = 1280,
     parameter MAX_HEIGHT = 720,
+    parameter AREA       = 1,
     parameter MOMENTS    = 2
 ) (
     input wire clk,
