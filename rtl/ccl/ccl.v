@@ -155,7 +155,7 @@ module ccl #(
         end
     end
 
-    wire restart, column, column_last, column_set, column_begin, end_above, end_here, touch, end_frame;
+    wire restart, column, column_last, column_set, column_begin, end_above, end_here, touch, end_frame, open_runs;
 
     ccl_scan #(
         .MAX_WIDTH(MAX_WIDTH),
@@ -171,6 +171,7 @@ module ccl #(
         .start_of_frame(sof),
         .end_of_line(eol),
         .end_of_frame(eof),
+        .open_runs(open_runs),
         .restart(restart),
         .column(column),
         .column_last(column_last),
@@ -201,6 +202,7 @@ module ccl #(
         .end_here(end_here),
         .touch(touch),
         .above(above),
+        .open_runs(open_runs),
         .load(load),
         .load_slot(load_slot),
         .keep(keep),

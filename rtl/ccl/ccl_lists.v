@@ -27,6 +27,7 @@ module ccl_lists #(
     input wire touch,      // p and c are 8-connected; only with one of the two above
 
     output wire [SLOT_BITS-1:0] above,  // p
+    output wire open_runs,  // p and c differ behind the event of this clock
 
     // One cycle later: the record of the class that the event is about becomes the accumulator.
     output reg                 load,       // the accumulator does not hold it: take the record stored at `load_slot`
@@ -44,6 +45,7 @@ module ccl_lists #(
     wire [SLOT_BITS-1:0] p_plus_1 = p_reg + 1'b1;
     wire [SLOT_BITS-1:0] p_plus_2 = p_plus_1 + 1'b1;
     wire [SLOT_BITS-1:0] p_next = end_above ? p_plus_1 : p_reg;
+    wire [SLOT_BITS-1:0] c_next = end_here ? c_reg + 1'b1 : c_reg;
 
     // Class of the run c, once c has touched a run above; the current list ends with c.
     reg x_active_reg, x_pending_reg;
@@ -208,7 +210,7 @@ module ccl_lists #(
 
     always @(posedge clk) begin
         p_reg <= p_next;
-        if (end_here) c_reg <= c_reg + 1'b1;
+        c_reg <= c_next;
         if (event_valid) begin
             x_active_reg <= touch && !end_here;
             held_reg     <= !complete_now;
@@ -224,6 +226,7 @@ module ccl_lists #(
     end
 
     assign above = p_reg;
+    assign open_runs = p_next != c_next;
 endmodule
 
 `default_nettype wire

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Union of two component records. Combinational.
+// Union of two component records, or one of them, or the empty one. Combinational.
 //
 // A record is, from bit 0: ~least x, ~least y, greatest x, then (AREA != 0) area, then (MOMENTS >= 1) sum x, sum y, then
 // (MOMENTS >= 2) sum xx, sum yy, sum xy. The least corner is stored inverted, so that every field is a sum or a
@@ -22,7 +22,9 @@ module ccl_merge #(
     parameter RECORD_BITS = 226
 ) (
     input  wire [RECORD_BITS-1:0] a,
+    input  wire                   use_a,
     input  wire [RECORD_BITS-1:0] b,
+    input  wire                   use_b,
     output wire [RECORD_BITS-1:0] y
 );
     localparam MIN_Y  = X_BITS;
@@ -34,22 +36,28 @@ module ccl_merge #(
     localparam SUM_YY = SUM_XX + SUM_XX_BITS;
     localparam SUM_XY = SUM_YY + SUM_YY_BITS;
 
-    assign y[0+:X_BITS] = a[0+:X_BITS] > b[0+:X_BITS] ? a[0+:X_BITS] : b[0+:X_BITS];
-    assign y[MIN_Y+:Y_BITS] = a[MIN_Y+:Y_BITS] > b[MIN_Y+:Y_BITS] ? a[MIN_Y+:Y_BITS] : b[MIN_Y+:Y_BITS];
-    assign y[MAX_X+:X_BITS] = a[MAX_X+:X_BITS] > b[MAX_X+:X_BITS] ? a[MAX_X+:X_BITS] : b[MAX_X+:X_BITS];
+    // Compared first and chosen then: what is masked before comparing takes a LUT a bit more.
+    wire a_least_x    = use_a && (!use_b || a[0+:X_BITS] > b[0+:X_BITS]);
+    wire a_least_y    = use_a && (!use_b || a[MIN_Y+:Y_BITS] > b[MIN_Y+:Y_BITS]);
+    wire a_greatest_x = use_a && (!use_b || a[MAX_X+:X_BITS] > b[MAX_X+:X_BITS]);
+    wire [RECORD_BITS-1:0] b_or_empty = b & {RECORD_BITS{use_b}};
+
+    assign y[0+:X_BITS]     = a_least_x ? a[0+:X_BITS] : b_or_empty[0+:X_BITS];
+    assign y[MIN_Y+:Y_BITS] = a_least_y ? a[MIN_Y+:Y_BITS] : b_or_empty[MIN_Y+:Y_BITS];
+    assign y[MAX_X+:X_BITS] = a_greatest_x ? a[MAX_X+:X_BITS] : b_or_empty[MAX_X+:X_BITS];
 
     generate
         if (AREA != 0) begin : g_area
-            assign y[AREA_LSB+:AREA_BITS] = a[AREA_LSB+:AREA_BITS] + b[AREA_LSB+:AREA_BITS];
+            assign y[AREA_LSB+:AREA_BITS] = (use_a ? a[AREA_LSB+:AREA_BITS] : 0) + b_or_empty[AREA_LSB+:AREA_BITS];
         end
         if (MOMENTS >= 1) begin : g_first
-            assign y[SUM_X+:SUM_X_BITS] = a[SUM_X+:SUM_X_BITS] + b[SUM_X+:SUM_X_BITS];
-            assign y[SUM_Y+:SUM_Y_BITS] = a[SUM_Y+:SUM_Y_BITS] + b[SUM_Y+:SUM_Y_BITS];
+            assign y[SUM_X+:SUM_X_BITS] = (use_a ? a[SUM_X+:SUM_X_BITS] : 0) + b_or_empty[SUM_X+:SUM_X_BITS];
+            assign y[SUM_Y+:SUM_Y_BITS] = (use_a ? a[SUM_Y+:SUM_Y_BITS] : 0) + b_or_empty[SUM_Y+:SUM_Y_BITS];
         end
         if (MOMENTS >= 2) begin : g_second
-            assign y[SUM_XX+:SUM_XX_BITS] = a[SUM_XX+:SUM_XX_BITS] + b[SUM_XX+:SUM_XX_BITS];
-            assign y[SUM_YY+:SUM_YY_BITS] = a[SUM_YY+:SUM_YY_BITS] + b[SUM_YY+:SUM_YY_BITS];
-            assign y[SUM_XY+:SUM_XY_BITS] = a[SUM_XY+:SUM_XY_BITS] + b[SUM_XY+:SUM_XY_BITS];
+            assign y[SUM_XX+:SUM_XX_BITS] = (use_a ? a[SUM_XX+:SUM_XX_BITS] : 0) + b_or_empty[SUM_XX+:SUM_XX_BITS];
+            assign y[SUM_YY+:SUM_YY_BITS] = (use_a ? a[SUM_YY+:SUM_YY_BITS] : 0) + b_or_empty[SUM_YY+:SUM_YY_BITS];
+            assign y[SUM_XY+:SUM_XY_BITS] = (use_a ? a[SUM_XY+:SUM_XY_BITS] : 0) + b_or_empty[SUM_XY+:SUM_XY_BITS];
         end
     endgenerate
 endmodule

@@ -48,11 +48,9 @@ module ccl_run #(
             x_reg <= last_of_line ? 0 : x_reg + 1'b1;
             if (last_of_line) y_reg <= y_reg + 1'b1;
         end
-        if (count) begin
-            if (begin_run) first_x_reg <= x_reg;
-            last_x_reg <= x_reg;
-            line_reg   <= y_reg;
-        end
+        if (count && begin_run) first_x_reg <= x_reg;
+        last_x_reg <= x_reg;
+        line_reg   <= y_reg;
         if (restart) begin
             x_reg <= 0;
             y_reg <= 0;
@@ -62,7 +60,7 @@ module ccl_run #(
     localparam BOX_END = 2 * X_BITS + Y_BITS;
     localparam AREA_END = BOX_END + AREA_BITS;
     localparam FIRST_END = AREA_END + SUM_X_BITS + SUM_Y_BITS;
-    assign line = y_reg;
+    assign line = line_reg;
     assign record[BOX_END-1:0] = {last_x_reg, ~line_reg, ~first_x_reg};
 
     // Masks: what a single line can add up to; the higher bits of each sum are constant 0.

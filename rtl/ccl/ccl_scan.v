@@ -23,6 +23,7 @@ module ccl_scan #(
     input wire              start_of_frame,
     input wire              end_of_line,
     input wire              end_of_frame,
+    input wire              open_runs,      // after the last line: of its runs not all have ended, those on their way have
 
     output reg restart,        // a new frame; events of the old one end
     output reg column,         // a column of the frame, in raster order
@@ -58,10 +59,9 @@ module ccl_scan #(
     wire near_here = b_here_reg || right_here;
     wire near_above = b_above_reg || right_above;
 
-    // Runs that the current line has ended, then those that the flush after the last line has left.
-    reg [X_BITS-1:0] runs_reg;
+    // After the last line its runs end as those above, one a clock.
     reg flush_reg;
-    wire flush_run = flush_reg && runs_reg != 0;
+    wire flush_run = flush_reg && open_runs;
 
     always @(posedge clk) begin
         if (pixel_valid) begin
@@ -94,9 +94,6 @@ module ccl_scan #(
             a_valid_reg <= pixel_valid;
             if (a_valid_reg) b_valid_reg <= 1'b1;
             else if (b_done) b_valid_reg <= 1'b0;
-            if (b_done && ends_here) runs_reg <= runs_reg + 1'b1;
-            if ((b_done && b_last_reg && !b_end_reg) || a_abandons) runs_reg <= 0;
-            if (flush_run) runs_reg <= runs_reg - 1'b1;
             if (b_done && b_end_reg) flush_reg <= 1'b1;
             else if (!flush_run) flush_reg <= 1'b0;
         end
@@ -110,7 +107,6 @@ module ccl_scan #(
             a_valid_reg <= 1'b0;
             b_valid_reg <= 1'b0;
             flush_reg   <= 1'b0;
-            runs_reg    <= 0;
         end
     end
 endmodule

@@ -37,9 +37,9 @@ module ccl_store #(
     input wire [SLOT_BITS-1:0] save_slot,
     input wire                 start_frame,
     input wire                 end_frame,
-    input wire [Y_BITS-1:0]    line,        // of the command
 
     input wire [RECORD_BITS-1:0] run_record,  // stage 2
+    input wire [     Y_BITS-1:0] line,        // stage 2
     input wire [    AREA_BITS:0] min_area,    // of the frame that starts next; counts from its start_frame on
 
     output reg                    found,
@@ -89,8 +89,10 @@ module ccl_store #(
         .SUM_XY_BITS(SUM_XY_BITS),
         .RECORD_BITS(RECORD_BITS)
     ) merge_run (
-        .a(loaded & {RECORD_BITS{load_2_reg}}),
-        .b(run_record & {RECORD_BITS{add_run_2_reg}}),
+        .a(loaded),
+        .use_a(load_2_reg),
+        .b(run_record),
+        .use_b(add_run_2_reg),
         .y(sum_2)
     );
 
@@ -107,8 +109,10 @@ module ccl_store #(
         .SUM_XY_BITS(SUM_XY_BITS),
         .RECORD_BITS(RECORD_BITS)
     ) merge_accumulator (
-        .a(accumulator_reg & {RECORD_BITS{keep_3_reg}}),
+        .a(accumulator_reg),
+        .use_a(keep_3_reg),
         .b(sum_3_reg),
+        .use_b(1'b1),
         .y(sum_3)
     );
 
@@ -131,10 +135,9 @@ module ccl_store #(
     end
 
     // A component is complete in the line after its last one.
-    reg [Y_BITS-1:0] max_y_2_reg, max_y_3_reg, max_y_4_reg;
+    reg [Y_BITS-1:0] max_y_3_reg, max_y_4_reg;
     always @(posedge clk) begin
-        max_y_2_reg <= line - 1'b1;
-        max_y_3_reg <= max_y_2_reg;
+        max_y_3_reg <= line - 1'b1;
         max_y_4_reg <= max_y_3_reg;
         found_max_y <= max_y_4_reg;
     end
