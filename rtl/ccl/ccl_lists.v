@@ -60,89 +60,38 @@ module ccl_lists #(
     wire x_is_y = x_active_reg && x_pending_reg && x_head_is_p_reg;
     wire y_more = y_tail_reg != p_reg;
 
-    // The class of c after it touched p, with p consumed.
-    reg joined_pending;
-    reg [SLOT_BITS-1:0] joined_head, joined_tail, joined_first;
-    reg link_enable;
-    reg [SLOT_BITS-1:0] link_from, link_to;
-    // The same of both candidates for a place: comparing is not behind choosing.
+    // ---- Where the class of the event has its home afterwards, and what is known of it there.
+    // Planarity: pending runs of y precede those of x, current ones too, and not both kinds of list need a link.
+
+    wire x_has_pending = x_active_reg && x_pending_reg;
+    wire leave = end_above && !touch;  // the class of p, without the run c
+    // With p consumed, if it is.
+    wire joined_pending = x_is_y ? x_tail_reg != p_reg : x_has_pending || y_more;
+    wire stays_pending = touch ? !end_above || joined_pending : end_above ? y_more : x_has_pending;
+
+    wire first_of_y = touch ? y_current_reg && !x_is_y : end_above;
+    wire head_of_x = touch ? x_active_reg && !x_is_y && !y_more : !end_above;
+    wire [SLOT_BITS-1:0] first = first_of_y ? y_first_reg : x_active_reg ? x_first_reg : c_reg;
+    wire [SLOT_BITS-1:0] last = leave ? y_last_reg : c_reg;
+    wire [SLOT_BITS-1:0] pending_tail = x_has_pending && !leave ? x_tail_reg : y_tail_reg;
+    wire [SLOT_BITS-1:0] pending_head = head_of_x ? x_head_reg : y_next_reg;
+    // Without pending runs the current ones are those that the next line finds.
+    wire [SLOT_BITS-1:0] tail = stays_pending ? pending_tail : last;
+
+    wire complete_now = leave && !y_more && !y_current_reg;
+    wire settle = end_here || (leave && !complete_now);
+    wire [SLOT_BITS-1:0] home = !stays_pending ? first : touch && !end_above ? p_reg : pending_head;
+    wire [INFO_BITS-1:0] home_info = {stays_pending && (y_current_reg || !leave), last, first, tail};
+
+    // Two lists become one.
+    wire link_enable = touch && !x_is_y && (y_current_reg || x_has_pending);
+    wire [SLOT_BITS-1:0] link_from = x_has_pending ? y_tail_reg : y_last_reg;
+    wire [SLOT_BITS-1:0] link_to = x_has_pending ? x_head_reg : x_active_reg ? x_first_reg : c_reg;
+
+    // Both candidates for a place are compared, so that comparing is not behind choosing.
     wire x_head_is_next = x_head_reg == p_next;
-    wire y_last_is_next = y_last_reg == p_next;
-    wire y_tail_is_next = y_tail_reg == p_next;
-    reg joined_head_is_next, link_from_is_next;
-
-    always @* begin
-        joined_head = y_next_reg;
-        link_from   = y_last_reg;
-        link_to     = c_reg;
-        joined_head_is_next = y_next_reg == p_next;
-        link_from_is_next   = y_last_is_next;
-        if (x_is_y) begin
-            joined_pending = x_tail_reg != p_reg;
-            joined_tail    = x_tail_reg;
-            joined_first   = x_first_reg;
-            link_enable    = 1'b0;
-        end else if (x_active_reg) begin
-            // Planarity: pending runs of y precede those of x, current ones too, and not both kinds of list need a link.
-            joined_pending = x_pending_reg || y_more;
-            joined_tail    = x_pending_reg ? x_tail_reg : y_tail_reg;
-            joined_first   = y_current_reg ? y_first_reg : x_first_reg;
-            link_enable    = x_pending_reg || y_current_reg;
-            link_to        = x_first_reg;
-            if (!y_more) begin
-                joined_head         = x_head_reg;
-                joined_head_is_next = x_head_is_next;
-            end
-            if (x_pending_reg) begin
-                link_from         = y_tail_reg;
-                link_from_is_next = y_tail_is_next;
-                link_to           = x_head_reg;
-            end
-        end else begin
-            joined_pending = y_more;
-            joined_tail    = y_tail_reg;
-            joined_first   = y_current_reg ? y_first_reg : c_reg;
-            link_enable    = y_current_reg;
-        end
-        link_enable = link_enable && touch;
-    end
-
-    // Where the class goes when the event leaves it without an active run.
-    wire complete_now = end_above && !touch && !y_more && !y_current_reg;
-    wire settle = end_here || (end_above && !touch && !complete_now);
-    reg [SLOT_BITS-1:0] home;
-    reg [INFO_BITS-1:0] home_info;
-
-    always @* begin
-        home      = c_reg;
-        home_info = {1'b0, c_reg, c_reg, c_reg};
-        if (touch) begin
-            if (!end_above) begin
-                home      = p_reg;
-                home_info = {1'b1, c_reg, joined_first, joined_tail};
-            end else if (joined_pending) begin
-                home      = joined_head;
-                home_info = {1'b1, c_reg, joined_first, joined_tail};
-            end else begin
-                home = joined_first;
-            end
-        end else if (end_above) begin
-            if (y_more) begin
-                home      = y_next_reg;
-                home_info = {y_current_reg, y_last_reg, y_first_reg, y_tail_reg};
-            end else begin
-                home      = y_first_reg;
-                home_info = {1'b0, c_reg, c_reg, y_last_reg};
-            end
-        end else if (x_active_reg) begin
-            home = x_first_reg;
-            if (x_pending_reg) begin
-                home      = x_head_reg;
-                home_info = {1'b1, c_reg, x_first_reg, x_tail_reg};
-            end
-        end
-    end
-
+    wire pending_head_is_next = head_of_x ? x_head_is_next : y_next_reg == p_next;
+    wire link_from_is_next = x_has_pending ? y_tail_reg == p_next : y_last_reg == p_next;
     wire home_is_p_next = settle && home == p_next;
 
     // Both memories are read at the slot after p_next; a write to the slot that is being read is passed by.
@@ -176,12 +125,13 @@ module ccl_lists #(
         if (link_enable && link_from_is_next) y_next_reg <= link_to;
         else if (end_above) y_next_reg <= next_ahead;
 
-        x_head_is_p_reg <= touch ? joined_head_is_next : x_head_is_next;
+        x_head_is_p_reg <= touch ? pending_head_is_next : x_head_is_next;
+        // If c goes on, p has ended.
         if (touch) begin
             x_pending_reg <= joined_pending;
-            x_head_reg    <= joined_head;
-            x_tail_reg    <= joined_tail;
-            x_first_reg   <= joined_first;
+            x_head_reg    <= pending_head;
+            x_tail_reg    <= tail;
+            x_first_reg   <= first;
         end
     end
 
