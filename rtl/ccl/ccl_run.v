@@ -40,13 +40,15 @@ module ccl_run #(
         begin_run    <= begin_in;
     end
 
+    wire end_line = column && last_of_line;
     reg [X_BITS-1:0] x_reg, first_x_reg, last_x_reg;
     reg [Y_BITS-1:0] y_reg, line_reg;
 
     always @(posedge clk) begin
-        if (column) begin
-            x_reg <= last_of_line ? 0 : x_reg + 1'b1;
-            if (last_of_line) y_reg <= y_reg + 1'b1;
+        if (column) x_reg <= x_reg + 1'b1;
+        if (end_line) begin
+            x_reg <= 0;
+            y_reg <= y_reg + 1'b1;
         end
         if (count && begin_run) first_x_reg <= x_reg;
         last_x_reg <= x_reg;
@@ -111,11 +113,11 @@ module ccl_run #(
                     // (x + 1)^2 = x^2 + 2 x + 1, (x + 1) y = x y + y
                     xx_reg <= xx_reg + {{(X_BITS - 1) {1'b0}}, x_reg, 1'b1};
                     xy_reg <= xy_reg + {{X_BITS{1'b0}}, y_reg};
-                    if (last_of_line) begin
-                        xx_reg <= 0;
-                        xy_reg <= 0;
-                        yy_reg <= yy_reg + {{(Y_BITS - 1) {1'b0}}, y_reg, 1'b1};
-                    end
+                end
+                if (end_line) begin
+                    xx_reg <= 0;
+                    xy_reg <= 0;
+                    yy_reg <= yy_reg + {{(Y_BITS - 1) {1'b0}}, y_reg, 1'b1};
                 end
                 if (count) begin
                     sum_xx_reg <= ((begin_run ? 0 : sum_xx_reg) + xx) & SUM_XX_MASK;

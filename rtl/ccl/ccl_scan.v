@@ -35,6 +35,7 @@ module ccl_scan #(
     output reg touch,
     output reg end_frame       // after the last event of a frame
 );
+    (* ram_style = "block" *)
     reg line_above[0:MAX_WIDTH-1];
 
     // a: the newest pixel, b: the one to its left.

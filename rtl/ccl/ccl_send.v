@@ -85,11 +85,10 @@ module ccl_send #(
     // The trailer is all zeros.
     wire [X_BITS-1:0] min_x = ~record[0+:X_BITS] & {X_BITS{!m_axis_tlast}};
     wire [Y_BITS-1:0] min_y = ~record[MIN_Y+:Y_BITS] & {Y_BITS{!m_axis_tlast}};
-    wire [Y_BITS-1:0] max_y = record_max_y & {Y_BITS{!m_axis_tlast}};
 
     assign m_axis_tdata[OBJECT_SUM_X_LSB-1:OBJECT_BOX_MIN_X_LSB] = {
         {OBJECT_RESERVED_0_WIDTH{1'b0}},
-        {{(OBJECT_BOX_MAX_Y_WIDTH - Y_BITS) {1'b0}}, max_y},
+        {{(OBJECT_BOX_MAX_Y_WIDTH - Y_BITS) {1'b0}}, record_max_y},
         {{(OBJECT_BOX_MAX_X_WIDTH - X_BITS) {1'b0}}, record[MAX_X+:X_BITS]},
         {{(OBJECT_BOX_MIN_Y_WIDTH - Y_BITS) {1'b0}}, min_y},
         {{(OBJECT_BOX_MIN_X_WIDTH - X_BITS) {1'b0}}, min_x}

@@ -44,7 +44,7 @@ module ccl_store #(
 
     output reg                    found,
     output reg                    found_start,  // start of frame
-    output reg                    found_end,    // end of frame; the record is that of no pixels
+    output reg                    found_end,    // end of frame; the record is that of no pixels, found_max_y is 0
     output reg  [RECORD_BITS-1:0] found_record,
     output reg  [     Y_BITS-1:0] found_max_y
 );
@@ -140,6 +140,7 @@ module ccl_store #(
         max_y_3_reg <= line - 1'b1;
         max_y_4_reg <= max_y_3_reg;
         found_max_y <= max_y_4_reg;
+        if (end_4_reg) found_max_y <= 0;
     end
 
     wire large_4;
