@@ -110,8 +110,8 @@ module frame_tracker #(
         last_y_reg <= cfg_last_y;
       end
       sol_reg <= at_last_x;
-      x_reg   <= at_last_x ? {X_BITS{1'b0}} : x[X_BITS-1:0] + 1'b1;
-      y_reg   <= at_last_x ? y[Y_BITS-1:0] + 1'b1 : y[Y_BITS-1:0];
+      x_reg   <= x[X_BITS-1:0] + 1'b1;
+      y_reg   <= y[Y_BITS-1:0] + {{(Y_BITS - 1) {1'b0}}, at_last_x};
 
       if (accept) state_reg <= eof ? DONE : FRAME;
       else state_reg <= SILENT;
@@ -120,6 +120,8 @@ module frame_tracker #(
       if (beat_user) frame_error <= !accept || state_reg == FRAME;
       else frame_error <= !accept && state_reg != SILENT;
     end
+
+    if (beat && at_last_x) x_reg <= {X_BITS{1'b0}};
 
     if (rst) begin
       state_reg   <= SILENT;
