@@ -45,7 +45,7 @@ module ccl_lists #(
     wire [SLOT_BITS-1:0] p_plus_1 = p_reg + 1'b1;
     wire [SLOT_BITS-1:0] p_plus_2 = p_plus_1 + 1'b1;
     wire [SLOT_BITS-1:0] p_next = end_above ? p_plus_1 : p_reg;
-    wire [SLOT_BITS-1:0] c_next = end_here ? c_reg + 1'b1 : c_reg;
+    wire [SLOT_BITS-1:0] c_plus_1 = c_reg + 1'b1;
 
     // Class of the run c, once c has touched a run above; the current list ends with c.
     reg x_active_reg, x_pending_reg;
@@ -88,11 +88,14 @@ module ccl_lists #(
     wire [SLOT_BITS-1:0] link_from = x_has_pending ? y_tail_reg : y_last_reg;
     wire [SLOT_BITS-1:0] link_to = x_has_pending ? x_head_reg : x_active_reg ? x_first_reg : c_reg;
 
-    // Both candidates for a place are compared, so that comparing is not behind choosing.
+    // All candidates for a place are compared, so that comparing is not behind choosing.
     wire x_head_is_next = x_head_reg == p_next;
     wire pending_head_is_next = head_of_x ? x_head_is_next : y_next_reg == p_next;
     wire link_from_is_next = x_has_pending ? y_tail_reg == p_next : y_last_reg == p_next;
-    wire home_is_p_next = settle && home == p_next;
+    wire c_is_next = c_reg == p_next;
+    wire first_is_next = first_of_y ? y_first_reg == p_next : x_active_reg ? x_first_reg == p_next : c_is_next;
+    wire home_is_p_next =
+        settle && (!stays_pending ? first_is_next : (touch && !end_above) || pending_head_is_next);
 
     // Both memories are read at the slot after p_next; a write to the slot that is being read is passed by.
     reg [INFO_BITS-1:0] info[0:SLOTS-1];
@@ -160,7 +163,7 @@ module ccl_lists #(
 
     always @(posedge clk) begin
         p_reg <= p_next;
-        c_reg <= c_next;
+        if (end_here) c_reg <= c_plus_1;
         if (event_valid) begin
             x_active_reg <= touch && !end_here;
             held_reg     <= !complete_now;
@@ -176,7 +179,7 @@ module ccl_lists #(
     end
 
     assign above = p_reg;
-    assign open_runs = p_next != c_next;
+    assign open_runs = end_here ? c_plus_1 != p_next : !c_is_next;
 endmodule
 
 `default_nettype wire

@@ -41,7 +41,7 @@ class Fault:
 QUICK = [
     Fault("rgb2gray", "HALF = 23'd16384", "HALF = 23'd0", "stage gray, frame 0"),
     Fault("threshold_apply", "out_pixel > threshold", "out_pixel >= threshold", "stage binary, frame 1"),
-    Fault("ccl_merge", "a[MAX_Y+:Y_BITS] > b", "a[MAX_Y+:Y_BITS] < b", "stage objects, frame 1"),
+    Fault("ccl_merge", "a[MAX_X+:X_BITS] > b", "a[MAX_X+:X_BITS] < b", "stage objects, frame 1"),
     Fault("result_writer", "{23'd0, threshold_factor_reg}", "32'd0", "record, frame 0: threshold_factor"),
     # What is handed over is right: only what waits changes.
     Fault(
