@@ -93,9 +93,8 @@ module ccl_lists #(
     wire pending_head_is_next = head_of_x ? x_head_is_next : y_next_reg == p_next;
     wire link_from_is_next = x_has_pending ? y_tail_reg == p_next : y_last_reg == p_next;
     wire c_is_next = c_reg == p_next;
-    wire first_is_next = first_of_y ? y_first_reg == p_next : x_active_reg ? x_first_reg == p_next : c_is_next;
     wire home_is_p_next =
-        settle && (!stays_pending ? first_is_next : (touch && !end_above) || pending_head_is_next);
+        settle && (!stays_pending ? first == p_next : (touch && !end_above) || pending_head_is_next);
 
     // Both memories are read at the slot after p_next; a write to the slot that is being read is passed by.
     reg [INFO_BITS-1:0] info[0:SLOTS-1];
