@@ -41,6 +41,8 @@ module frame_tracker #(
 
   localparam X_BITS = (MAX_WIDTH > 1) ? $clog2(MAX_WIDTH) : 1;
   localparam Y_BITS = (MAX_HEIGHT > 1) ? $clog2(MAX_HEIGHT) : 1;
+  localparam W_BITS = $clog2(MAX_WIDTH + 1);
+  localparam H_BITS = $clog2(MAX_HEIGHT + 1);
 
   generate
     if (MIN_WIDTH < 1 || MAX_WIDTH < MIN_WIDTH || MAX_WIDTH > 32768) begin : g_width
@@ -66,8 +68,8 @@ module frame_tracker #(
   reg  [X_BITS-1:0] x_reg;
   reg  [Y_BITS-1:0] y_reg;
   reg               sol_reg;
-  reg  [X_BITS-1:0] last_x_reg;
-  reg  [Y_BITS-1:0] last_y_reg;
+  reg  [W_BITS-1:0] width_reg;
+  reg  [H_BITS-1:0] height_reg;
 
   // From the size to the registers of a core is its longest way. Against a constant, bits are quicker than a carry chain.
   function at_most;
@@ -81,14 +83,28 @@ module frame_tracker #(
     end
   endfunction
 
-  wire [X_BITS-1:0] cfg_last_x = cfg_width[X_BITS-1:0] - 1'b1;
-  wire [Y_BITS-1:0] cfg_last_y = cfg_height[Y_BITS-1:0] - 1'b1;
+  // Whether next = value + 1: a bit changes exactly where all below are 1, which the two numbers show themselves.
+  function is_next;
+    input [15:0] next;
+    input [15:0] value;
+    integer place;
+    begin
+      is_next = next[0] != value[0];
+      for (place = 1; place < 16; place = place + 1)
+        is_next = is_next && (next[place] ^ value[place]) == (value[place-1] && !next[place-1]);
+    end
+  endfunction
+
   wire              width_ok = at_most(LEAST_WIDTH, cfg_width) && at_most(cfg_width, MOST_WIDTH);
   wire              height_ok = at_most(LEAST_HEIGHT, cfg_height) && at_most(cfg_height, MOST_HEIGHT);
   wire              size_ok = width_ok && height_ok;
 
-  wire              at_last_x = beat_user ? cfg_width == 16'd1 : x_reg == last_x_reg;
-  wire              at_last_y = beat_user ? cfg_height == 16'd1 : y_reg == last_y_reg;
+  wire [      15:0] width = {{(16 - W_BITS) {1'b0}}, width_reg};
+  wire [      15:0] height = {{(16 - H_BITS) {1'b0}}, height_reg};
+  wire [      15:0] x_now = {{(16 - X_BITS) {1'b0}}, x_reg};
+  wire [      15:0] y_now = {{(16 - Y_BITS) {1'b0}}, y_reg};
+  wire              at_last_x = beat_user ? cfg_width == 16'd1 : is_next(width, x_now);
+  wire              at_last_y = beat_user ? cfg_height == 16'd1 : is_next(height, y_now);
   wire              in_frame = beat_user ? size_ok : state_reg == FRAME;
 
   assign accept = beat && in_frame && beat_last == at_last_x;
@@ -96,18 +112,18 @@ module frame_tracker #(
   assign sol    = beat_user || sol_reg;
   assign eol    = at_last_x;
   assign eof    = at_last_x && at_last_y;
-  assign x      = beat_user ? 16'd0 : {{(16 - X_BITS) {1'b0}}, x_reg};
-  assign y      = beat_user ? 16'd0 : {{(16 - Y_BITS) {1'b0}}, y_reg};
-  assign last_x = {{(16 - X_BITS) {1'b0}}, last_x_reg};
-  assign last_y = {{(16 - Y_BITS) {1'b0}}, last_y_reg};
+  assign x      = beat_user ? 16'd0 : x_now;
+  assign y      = beat_user ? 16'd0 : y_now;
+  assign last_x = width - 16'd1;
+  assign last_y = height - 16'd1;
 
   always @(posedge clk) begin
     frame_error <= 1'b0;
 
     if (beat) begin
       if (beat_user) begin
-        last_x_reg <= cfg_last_x;
-        last_y_reg <= cfg_last_y;
+        width_reg  <= cfg_width[W_BITS-1:0];
+        height_reg <= cfg_height[H_BITS-1:0];
       end
       sol_reg <= at_last_x;
       x_reg   <= x[X_BITS-1:0] + 1'b1;
