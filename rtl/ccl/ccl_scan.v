@@ -23,7 +23,7 @@ module ccl_scan #(
     input wire              start_of_frame,
     input wire              end_of_line,
     input wire              end_of_frame,
-    input wire              open_runs,      // after the last line: of its runs not all have ended, those on their way have
+    input wire              open_runs,      // not all runs of the last line have ended
 
     output reg restart,        // a new frame; events of the old one end
     output reg column,         // a column of the frame, in raster order
