@@ -5,12 +5,12 @@
 // Stream in      1 bit a pixel; frame contract of docs/design.md.
 // Stream out     object stream of docs/design.md, in the raster order of the components' last pixels.
 // Throughput     1 pixel a clock, blanking not needed, for every image. From the last pixel of a frame to the first of the next
-//                10 clocks and one for each run of set pixels in the last line: at most 10 + (MAX_WIDTH + 1) / 2.
+//                9 clocks and one for each run of set pixels in the last line: at most 9 + (MAX_WIDTH + 1) / 2.
 // Latency        an object comes 8 clocks after the pixel below and to the right of its last pixel (in raster order); 9 after the
 //                pixel below if the line ends there; in the last line with the flush. See docs/cores/ccl.md.
 // Border         pixels outside the frame are not set.
 // Rounding       none: all sums are integers.
-// Backpressure   nothing is lost: a stalled output stalls the input. 25 components are queued before that.
+// Backpressure   nothing is lost: a stalled output stalls the input. 26 components are queued before that.
 // Overflow       none: memories hold the worst case of MAX_WIDTH, sums the worst case of a frame.
 // Sampling       cfg_* are sampled with the start of each frame.
 // Malformed      all unfinished components are forgotten in one clock; those already sent stay sent, no trailer follows, and

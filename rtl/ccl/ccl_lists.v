@@ -41,10 +41,9 @@ module ccl_lists #(
     localparam INFO_BITS = 3 * SLOT_BITS + 1;
     localparam SLOTS = 1 << SLOT_BITS;
 
-    reg [SLOT_BITS-1:0] p_reg, c_reg;
-    wire [SLOT_BITS-1:0] p_plus_1 = p_reg + 1'b1;
-    wire [SLOT_BITS-1:0] p_plus_2 = p_plus_1 + 1'b1;
-    wire [SLOT_BITS-1:0] p_next = end_above ? p_plus_1 : p_reg;
+    // Much hangs on p and what follows it: both are kept.
+    reg [SLOT_BITS-1:0] p_reg, p_plus_1_reg, c_reg;
+    wire [SLOT_BITS-1:0] p_next = end_above ? p_plus_1_reg : p_reg;
     wire [SLOT_BITS-1:0] c_plus_1 = c_reg + 1'b1;
 
     // Class of the run c, once c has touched a run above; the current list ends with c.
@@ -102,7 +101,7 @@ module ccl_lists #(
     reg [INFO_BITS-1:0] info_read_reg, info_passed_reg;
     reg [SLOT_BITS-1:0] next_read_reg, next_passed_reg;
     reg info_pass_reg, next_pass_reg;
-    wire [SLOT_BITS-1:0] prefetch = end_above ? p_plus_2 : p_plus_1;
+    wire [SLOT_BITS-1:0] prefetch = p_plus_1_reg + {{(SLOT_BITS - 1) {1'b0}}, end_above};
 
     always @(posedge clk) begin
         info_read_reg   <= info[prefetch];
@@ -161,7 +160,8 @@ module ccl_lists #(
     end
 
     always @(posedge clk) begin
-        p_reg <= p_next;
+        p_reg        <= p_next;
+        p_plus_1_reg <= prefetch;
         if (end_here) c_reg <= c_plus_1;
         if (event_valid) begin
             x_active_reg <= touch && !end_here;
@@ -170,6 +170,7 @@ module ccl_lists #(
         end
         if (rst || restart) begin
             p_reg        <= 0;
+            p_plus_1_reg <= 1;
             c_reg        <= 0;
             x_active_reg <= 1'b0;
             y_held_reg   <= 1'b0;

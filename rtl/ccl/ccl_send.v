@@ -29,7 +29,7 @@ module ccl_send #(
     output reg almost_full,
 
     output wire [511:0] m_axis_tdata,
-    output wire         m_axis_tvalid,
+    output reg          m_axis_tvalid,
     input  wire         m_axis_tready,
     output wire         m_axis_tuser,
     output wire         m_axis_tlast
@@ -38,8 +38,8 @@ module ccl_send #(
 
     localparam DEPTH_BITS = 5;
     localparam DEPTH = 1 << DEPTH_BITS;
-    // At one component a clock: five in ccl_store, one in ccl_lists, one leaves ccl_scan as almost_full rises.
-    localparam RESERVE = 7;
+    // At one component a clock: four in ccl_store, one in ccl_lists, one leaves ccl_scan as almost_full rises.
+    localparam RESERVE = 6;
 
     reg [RECORD_BITS+Y_BITS+1:0] queue[0:DEPTH-1];
     reg [DEPTH_BITS:0] write_reg, read_reg;
@@ -47,11 +47,11 @@ module ccl_send #(
     wire [DEPTH_BITS:0] count = write_reg - read_reg;
     wire push = found || found_end;
     wire pop = m_axis_tvalid && m_axis_tready;
+    wire [DEPTH_BITS:0] read_next = read_reg + {{DEPTH_BITS{1'b0}}, pop};
     wire [RECORD_BITS-1:0] record;
     wire [Y_BITS-1:0] record_max_y;
 
     assign {m_axis_tuser, m_axis_tlast, record_max_y, record} = queue[read_reg[DEPTH_BITS-1:0]];
-    assign m_axis_tvalid = count != 0;
 
     always @(posedge clk) begin
         if (push) queue[write_reg[DEPTH_BITS-1:0]] <= {first_reg, found_end, found_max_y, found_record};
@@ -62,14 +62,16 @@ module ccl_send #(
             write_reg <= write_reg + 1'b1;
             first_reg <= found_end;
         end
-        if (pop) read_reg <= read_reg + 1'b1;
+        read_reg      <= read_next;
+        m_axis_tvalid <= read_next != write_reg;
         if (found_start) first_reg <= 1'b1;
-        almost_full <= count >= DEPTH - RESERVE;
+        almost_full   <= count >= DEPTH - RESERVE;
         if (rst) begin
-            write_reg   <= 0;
-            read_reg    <= 0;
-            first_reg   <= 1'b1;
-            almost_full <= 1'b0;
+            write_reg     <= 0;
+            read_reg      <= 0;
+            m_axis_tvalid <= 1'b0;
+            first_reg     <= 1'b1;
+            almost_full   <= 1'b0;
         end
     end
 

@@ -3,7 +3,7 @@
 //
 // Takes one command a clock from ccl_lists, never stalls. Stage 0 reads the memory at `read_slot` (while ccl_lists decides),
 // stage 1 receives the command, stage 2 adds the record from the memory and that of the run, stage 3 adds the sum to the
-// accumulator or replaces it, stage 4 compares, and `found` is valid with `found_record` in stage 5.
+// accumulator or replaces it, stage 4 compares: `found` is valid with `found_record`, combinational.
 // A record that was saved less than four clocks before it is read is taken from the pipeline.
 
 `default_nettype none
@@ -42,11 +42,11 @@ module ccl_store #(
     input wire [     Y_BITS-1:0] line,        // stage 2
     input wire [    AREA_BITS:0] min_area,    // of the frame that starts next; counts from its start_frame on
 
-    output reg                    found,
-    output reg                    found_start,  // start of frame
-    output reg                    found_end,    // end of frame; the record is that of no pixels, found_max_y is 0
-    output reg  [RECORD_BITS-1:0] found_record,
-    output reg  [     Y_BITS-1:0] found_max_y
+    output wire                   found,
+    output wire                   found_start,  // start of frame
+    output wire                   found_end,    // end of frame; the record is that of no pixels, found_max_y is 0
+    output wire [RECORD_BITS-1:0] found_record,
+    output wire [     Y_BITS-1:0] found_max_y
 );
     localparam SLOTS = 1 << SLOT_BITS;
 
@@ -56,7 +56,7 @@ module ccl_store #(
     reg [SLOT_BITS-1:0] save_slot_2_reg, save_slot_3_reg, save_slot_4_reg;
 
     reg [RECORD_BITS-1:0] memory[0:SLOTS-1];
-    reg [RECORD_BITS-1:0] read_1_reg, read_2_reg, sum_3_reg, accumulator_reg;
+    reg [RECORD_BITS-1:0] read_1_reg, read_2_reg, sum_3_reg, accumulator_reg, saved_4_reg;
     reg take_accumulator_2_reg;
 
     always @(posedge clk) begin
@@ -69,7 +69,7 @@ module ccl_store #(
     always @(posedge clk) begin
         take_accumulator_2_reg <= save_2_reg && save_slot_2_reg == load_slot;
         if (save_3_reg && save_slot_3_reg == load_slot) read_2_reg <= accumulator_reg;
-        else if (save_4_reg && save_slot_4_reg == load_slot) read_2_reg <= found_record;
+        else if (save_4_reg && save_slot_4_reg == load_slot) read_2_reg <= saved_4_reg;
         else read_2_reg <= read_1_reg;
     end
 
@@ -130,8 +130,8 @@ module ccl_store #(
         accumulator_reg <= sum_3;
         save_slot_4_reg <= save_slot_3_reg;
 
-        // Also what a load that collided with the save in the memory takes.
-        found_record    <= accumulator_reg;
+        // What a load that collided with the save in the memory takes.
+        saved_4_reg     <= accumulator_reg;
     end
 
     // A component is complete in the line after its last one.
@@ -139,8 +139,7 @@ module ccl_store #(
     always @(posedge clk) begin
         max_y_3_reg <= line - 1'b1;
         max_y_4_reg <= max_y_3_reg;
-        found_max_y <= max_y_4_reg;
-        if (end_4_reg) found_max_y <= 0;
+        if (end_3_reg) max_y_4_reg <= 0;
     end
 
     wire large_4;
@@ -172,10 +171,6 @@ module ccl_store #(
         complete_4_reg <= complete_3_reg;
         start_4_reg    <= start_3_reg;
         end_4_reg      <= end_3_reg;
-
-        found          <= complete_4_reg && large_4;
-        found_start    <= start_4_reg;
-        found_end      <= end_4_reg;
         if (rst) begin
             save_2_reg     <= 1'b0;
             complete_2_reg <= 1'b0;
@@ -189,11 +184,14 @@ module ccl_store #(
             complete_4_reg <= 1'b0;
             start_4_reg    <= 1'b0;
             end_4_reg      <= 1'b0;
-            found          <= 1'b0;
-            found_start    <= 1'b0;
-            found_end      <= 1'b0;
         end
     end
+
+    assign found        = complete_4_reg && large_4;
+    assign found_start  = start_4_reg;
+    assign found_end    = end_4_reg;
+    assign found_record = accumulator_reg;
+    assign found_max_y  = max_y_4_reg;
 endmodule
 
 `default_nettype wire

@@ -34,7 +34,7 @@ def build(width: int, height: int, core: Core | None = None, output: Path = OUTP
     """Return the bench for these MAX_WIDTH and MAX_HEIGHT; `core` is ccl, with other sources if wanted."""
     check_simulator("verilator")
     core = core or load_core("ccl")
-    names = ("REPORT_CLOCKS", "REPORT_AT_EDGE_CLOCKS", "LAST_LINE_CLOCKS", "CLOSE_CLOCKS")
+    names = ("REPORT_CLOCKS", "REPORT_AT_EDGE_CLOCKS", "LAST_LINE_CLOCKS", "NEXT_CLOCKS")
     clocks = {name: getattr(tb_ccl, name) for name in names}
     # make does not see a change of flags: each build has its folder.
     folder = output / "ccl/exhaustive" / "-".join(map(str, [f"{width}x{height}", *clocks.values()]))

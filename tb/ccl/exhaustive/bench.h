@@ -15,7 +15,7 @@
 #include "patterns.h"
 #include "verilated.h"
 
-// REPORT_CLOCKS, REPORT_AT_EDGE_CLOCKS, LAST_LINE_CLOCKS, CLOSE_CLOCKS: what docs/cores/ccl.md promises when neither side
+// REPORT_CLOCKS, REPORT_AT_EDGE_CLOCKS, LAST_LINE_CLOCKS, NEXT_CLOCKS: what docs/cores/ccl.md promises when neither side
 // waits, given by the build (tb/ccl/tb_ccl.py).
 
 constexpr uint64_t LONGEST_WAIT = 100000;  // clocks, for a pixel to be taken or a trailer to come
@@ -82,7 +82,7 @@ public:
             if (waited > 0 && free_running() && i != 0) fail("the input stalled for %llu clocks at pixel %zu", waited, i);
             if (free_running() && i == 0 && after_complete) {
                 greatest_close = std::max(greatest_close, waited);
-                if (waited + 1 != last_line_runs + CLOSE_CLOCKS)
+                if (waited + 1 != last_line_runs + NEXT_CLOCKS)
                     fail("the input stalled for %llu clocks after a last line of %llu runs", waited, last_line_runs);
             }
             if (free_running()) expected[me - first_expected].accepted[i] = clocks - 1;
