@@ -87,13 +87,23 @@ module ccl_lists #(
     wire [SLOT_BITS-1:0] link_from = x_has_pending ? y_tail_reg : y_last_reg;
     wire [SLOT_BITS-1:0] link_to = x_has_pending ? x_head_reg : x_active_reg ? x_first_reg : c_reg;
 
-    // All candidates for a place are compared, so that comparing is not behind choosing.
-    wire x_head_is_next = x_head_reg == p_next;
-    wire pending_head_is_next = head_of_x ? x_head_is_next : y_next_reg == p_next;
-    wire link_from_is_next = x_has_pending ? y_tail_reg == p_next : y_last_reg == p_next;
-    wire c_is_next = c_reg == p_next;
+    // All candidates for a place are compared with p and with p + 1, so that comparing is not behind choosing.
+    wire c_is_p = c_reg == p_reg;
+    wire c_is_p_plus_1 = c_reg == p_plus_1_reg;
+    wire x_head_is_p_plus_1 = x_head_reg == p_plus_1_reg;
+    wire x_first_is_p_plus_1 = x_first_reg == p_plus_1_reg;
+    wire y_first_is_p_plus_1 = y_first_reg == p_plus_1_reg;
+    wire y_next_is_p_plus_1 = y_next_reg == p_plus_1_reg;
+    wire x_first_is_next = end_above ? x_first_is_p_plus_1 : x_first_reg == p_reg;
+    wire c_is_next = end_above ? c_is_p_plus_1 : c_is_p;
+    wire first_is_next = first_of_y ? y_first_is_p_plus_1 : x_active_reg ? x_first_is_next : c_is_next;
+    wire x_head_is_next = end_above ? x_head_is_p_plus_1 : x_head_is_p_reg;
+    wire pending_head_is_next = head_of_x ? x_head_is_next : y_next_is_p_plus_1;
     wire home_is_p_next =
-        settle && (!stays_pending ? first == p_next : (touch && !end_above) || pending_head_is_next);
+        settle && (!stays_pending ? first_is_next : (touch && !end_above) || pending_head_is_next);
+    // A current run that p touches is not p.
+    wire link_from_is_next = !end_above ? x_has_pending && !y_more :
+        x_has_pending ? y_tail_reg == p_plus_1_reg : y_last_reg == p_plus_1_reg;
 
     // Both memories are read at the slot after p_next; a write to the slot that is being read is passed by.
     reg [INFO_BITS-1:0] info[0:SLOTS-1];
@@ -126,6 +136,7 @@ module ccl_lists #(
         if (link_enable && link_from_is_next) y_next_reg <= link_to;
         else if (end_above) y_next_reg <= next_ahead;
 
+        // With c at its end it means nothing.
         x_head_is_p_reg <= touch ? pending_head_is_next : x_head_is_next;
         // If c goes on, p has ended.
         if (touch) begin
@@ -179,7 +190,8 @@ module ccl_lists #(
     end
 
     assign above = p_reg;
-    assign open_runs = end_here ? c_plus_1 != p_next : !c_is_next;
+    // Behind a run that ends c is at least p.
+    assign open_runs = end_here ? !end_above || !c_is_p : !c_is_next;
 endmodule
 
 `default_nettype wire
