@@ -54,8 +54,8 @@ module ccl_lists #(
     reg y_current_reg, y_held_reg;
     reg [SLOT_BITS-1:0] y_tail_reg, y_first_reg, y_last_reg, y_next_reg;
 
-    // Kept, not compared: much hangs on it. x_head_is_p_reg means nothing unless x has pending runs.
-    reg x_head_is_p_reg;
+    // Kept, not compared: much hangs on them. They mean nothing unless x has pending runs.
+    reg x_head_is_p_reg, x_tail_is_p_reg;
     wire x_is_y = x_active_reg && x_pending_reg && x_head_is_p_reg;
     wire y_more = y_tail_reg != p_reg;
 
@@ -64,9 +64,10 @@ module ccl_lists #(
 
     wire x_has_pending = x_active_reg && x_pending_reg;
     wire leave = end_above && !touch;  // the class of p, without the run c
-    // With p consumed, if it is.
-    wire joined_pending = x_is_y ? x_tail_reg != p_reg : x_has_pending || y_more;
-    wire stays_pending = touch ? !end_above || joined_pending : end_above ? y_more : x_has_pending;
+    // With p consumed.
+    wire joined_pending = x_is_y ? !x_tail_is_p_reg : x_has_pending || y_more;
+    wire pending_above = touch ? joined_pending : y_more;
+    wire stays_pending = end_above ? pending_above : touch || x_has_pending;
 
     wire first_of_y = touch ? y_current_reg && !x_is_y : end_above;
     wire head_of_x = touch ? x_active_reg && !x_is_y && !y_more : !end_above;
@@ -92,18 +93,21 @@ module ccl_lists #(
     wire c_is_p_plus_1 = c_reg == p_plus_1_reg;
     wire x_head_is_p_plus_1 = x_head_reg == p_plus_1_reg;
     wire x_first_is_p_plus_1 = x_first_reg == p_plus_1_reg;
+    wire x_tail_is_p_plus_1 = x_tail_reg == p_plus_1_reg;
     wire y_first_is_p_plus_1 = y_first_reg == p_plus_1_reg;
     wire y_next_is_p_plus_1 = y_next_reg == p_plus_1_reg;
-    wire x_first_is_next = end_above ? x_first_is_p_plus_1 : x_first_reg == p_reg;
-    wire c_is_next = end_above ? c_is_p_plus_1 : c_is_p;
-    wire first_is_next = first_of_y ? y_first_is_p_plus_1 : x_active_reg ? x_first_is_next : c_is_next;
-    wire x_head_is_next = end_above ? x_head_is_p_plus_1 : x_head_is_p_reg;
-    wire pending_head_is_next = head_of_x ? x_head_is_next : y_next_is_p_plus_1;
-    wire home_is_p_next =
-        settle && (!stays_pending ? first_is_next : (touch && !end_above) || pending_head_is_next);
+    wire y_tail_is_p_plus_1 = y_tail_reg == p_plus_1_reg;
+    // If p ends:
+    wire pending_head_is_p_plus_1 = touch && !head_of_x ? y_next_is_p_plus_1 : x_head_is_p_plus_1;
+    wire first_is_p_plus_1 = first_of_y ? y_first_is_p_plus_1 : x_active_reg ? x_first_is_p_plus_1 : c_is_p_plus_1;
+    wire home_above_is_p_plus_1 = !pending_above ? first_is_p_plus_1 : touch ? pending_head_is_p_plus_1 : y_next_is_p_plus_1;
+    wire returns_above = settle && home_above_is_p_plus_1;
+    // If it does not:
+    wire x_first_or_c_is_p = x_active_reg ? x_first_reg == p_reg : c_is_p;
+    wire returns_here = end_here && (touch || (x_has_pending ? x_head_is_p_reg : x_first_or_c_is_p));
     // A current run that p touches is not p.
     wire link_from_is_next = !end_above ? x_has_pending && !y_more :
-        x_has_pending ? y_tail_reg == p_plus_1_reg : y_last_reg == p_plus_1_reg;
+        x_has_pending ? y_tail_is_p_plus_1 : y_last_reg == p_plus_1_reg;
 
     // Both memories are read at the slot after p_next; a write to the slot that is being read is passed by.
     reg [INFO_BITS-1:0] info[0:SLOTS-1];
@@ -131,13 +135,15 @@ module ccl_lists #(
     wire [SLOT_BITS-1:0] next_ahead = next_pass_reg ? next_passed_reg : next_read_reg;
 
     always @(posedge clk) begin
-        if (home_is_p_next) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= home_info;
-        else if (end_above) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= info_ahead;
+        if (end_above) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= returns_above ? home_info : info_ahead;
+        else if (returns_here) {y_current_reg, y_last_reg, y_first_reg, y_tail_reg} <= home_info;
         if (link_enable && link_from_is_next) y_next_reg <= link_to;
         else if (end_above) y_next_reg <= next_ahead;
 
-        // With c at its end it means nothing.
-        x_head_is_p_reg <= touch ? pending_head_is_next : x_head_is_next;
+        if (end_above) begin
+            x_head_is_p_reg <= pending_head_is_p_plus_1;
+            x_tail_is_p_reg <= touch && !x_has_pending ? y_tail_is_p_plus_1 : x_tail_is_p_plus_1;
+        end
         // If c goes on, p has ended.
         if (touch) begin
             x_pending_reg <= joined_pending;
@@ -177,7 +183,7 @@ module ccl_lists #(
         if (event_valid) begin
             x_active_reg <= touch && !end_here;
             held_reg     <= !complete_now;
-            y_held_reg   <= home_is_p_next;
+            y_held_reg   <= end_above ? returns_above : returns_here;
         end
         if (rst || restart) begin
             p_reg        <= 0;
@@ -191,7 +197,7 @@ module ccl_lists #(
 
     assign above = p_reg;
     // Behind a run that ends c is at least p.
-    assign open_runs = end_here ? !end_above || !c_is_p : !c_is_next;
+    assign open_runs = end_here ? !end_above || !c_is_p : end_above ? !c_is_p_plus_1 : !c_is_p;
 endmodule
 
 `default_nettype wire
