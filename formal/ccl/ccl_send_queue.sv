@@ -53,6 +53,8 @@ module ccl_send_queue (
   always @* if (almost_full && late == LATE) assume (!push);
 
   (* hierconn *) wire [5:0] \dut.count ;
+  (* hierconn *) wire [5:0] \dut.read_reg ;
+  (* hierconn *) wire [5:0] \dut.read_plus_1_reg ;
 
   always @(posedge clk)
     if (known) begin
@@ -60,6 +62,7 @@ module ccl_send_queue (
       assert (m_axis_tvalid == (visible != 6'd0));
       // For induction.
       assert (\dut.count == waiting);
+      assert (\dut.read_plus_1_reg == \dut.read_reg + 6'd1);
       assert (late <= LATE);
       assert (visible <= waiting && waiting <= visible + 6'd1);
       assert (waiting <= 6'd26 || almost_full);

@@ -187,6 +187,8 @@ module result_writer_record #(
   (* hierconn *) wire [7:0] \rules.length ;
   (* hierconn *) wire \rules.address_waits ;
   (* hierconn *) wire [7:0] \dut.outstanding_reg ;
+  (* hierconn *) wire \dut.outstanding_none_reg ;
+  (* hierconn *) wire \dut.outstanding_most_reg ;
   (* hierconn *) wire [7:0] \dut.beats_left_reg ;
   (* hierconn *) wire [2:0] \dut.state_reg ;
   (* hierconn *) wire [8:0] \dut.object_count_reg ;
@@ -204,6 +206,8 @@ module result_writer_record #(
   always @(posedge clk)
     if (known && !rst) begin
       assert (\dut.outstanding_reg <= MAX_OUTSTANDING);
+      assert (\dut.outstanding_none_reg == (\dut.outstanding_reg == 8'd0));
+      assert (\dut.outstanding_most_reg == (\dut.outstanding_reg == MAX_OUTSTANDING));
       assert (\dut.outstanding_reg == {4'd0, unanswered} + {7'd0, starts});
       if (m_axi_wvalid) assert (\dut.beats_left_reg <= 8'd7);
       if (m_axi_wvalid) assert (\dut.beats_left_reg + beat == (starts ? m_axi_awlen : \rules.length ));

@@ -42,12 +42,12 @@ module ccl_send #(
     localparam RESERVE = 6;
 
     reg [RECORD_BITS+Y_BITS+1:0] queue[0:DEPTH-1];
-    reg [DEPTH_BITS:0] write_reg, read_reg;
+    reg [DEPTH_BITS:0] write_reg, read_reg, read_plus_1_reg;
     reg first_reg;
     wire [DEPTH_BITS:0] count = write_reg - read_reg;
     wire push = found || found_end;
     wire pop = m_axis_tvalid && m_axis_tready;
-    wire [DEPTH_BITS:0] read_next = read_reg + {{DEPTH_BITS{1'b0}}, pop};
+    wire [DEPTH_BITS:0] read_next = pop ? read_plus_1_reg : read_reg;
     wire [RECORD_BITS-1:0] record;
     wire [Y_BITS-1:0] record_max_y;
 
@@ -63,15 +63,17 @@ module ccl_send #(
             first_reg <= found_end;
         end
         read_reg      <= read_next;
-        m_axis_tvalid <= read_next != write_reg;
+        if (pop) read_plus_1_reg <= read_plus_1_reg + 1'b1;
+        m_axis_tvalid <= pop ? read_plus_1_reg != write_reg : read_reg != write_reg;
         if (found_start) first_reg <= 1'b1;
         almost_full   <= count >= DEPTH - RESERVE;
         if (rst) begin
-            write_reg     <= 0;
-            read_reg      <= 0;
-            m_axis_tvalid <= 1'b0;
-            first_reg     <= 1'b1;
-            almost_full   <= 1'b0;
+            write_reg       <= 0;
+            read_reg        <= 0;
+            read_plus_1_reg <= 1;
+            m_axis_tvalid   <= 1'b0;
+            first_reg       <= 1'b1;
+            almost_full     <= 1'b0;
         end
     end
 

@@ -149,6 +149,9 @@ module result_writer #(
     reg zero_reg;              // the burst writes zeros and leaves data_reg alone
     reg [511:0] data_reg;
     reg [7:0] outstanding_reg;
+    // Kept, not compared: what is taken hangs on them.
+    reg outstanding_none_reg;
+    reg outstanding_most_reg;
 
     assign m_axi_awaddr = awaddr_reg;
     assign m_axi_awlen = awlen_reg;
@@ -164,8 +167,8 @@ module result_writer #(
     assign m_axi_bready = 1'b1;
 
     wire engine_free = !awvalid_reg && !wvalid_reg;
-    wire quiet = engine_free && outstanding_reg == 8'd0;
-    wire room = engine_free && outstanding_reg != OUTSTANDING_LIMIT[7:0];
+    wire quiet = engine_free && outstanding_none_reg;
+    wire room = engine_free && !outstanding_most_reg;
     wire response = m_axi_bvalid;
 
     assign s_axis_tready = state_reg == IDLE || (state_reg == OBJECTS && room);
@@ -183,6 +186,11 @@ module result_writer #(
     wire start_header = state_reg == HEADER && room && !error_reg;
     wire start_publish = state_reg == SETTLE && quiet && !error_reg;
     wire start = start_invalidate || start_object || start_header || start_publish;
+
+    wire next_is_object = state_reg == INVALIDATE || state_reg == OBJECTS;
+    wire next_is_header = state_reg == HEADER;
+    wire [31:0] next_offset = next_is_object ? offset_reg : next_is_header ? 32'd0 : FRAME_NUMBER_OFFSET;
+    wire [7:0] next_len = next_is_object ? OBJECT_LEN[7:0] : next_is_header ? HEADER_LEN[7:0] : 8'd0;
 
     reg [511:0] header;
     always @* begin
@@ -219,33 +227,34 @@ module result_writer #(
         if (start) begin
             awvalid_reg <= 1'b1;
             wvalid_reg <= 1'b1;
-            zero_reg <= start_invalidate;
         end
-        if (start_invalidate || start_publish) begin
-            awaddr_reg <= base_reg + FRAME_NUMBER_OFFSET;
-            awlen_reg <= 8'd0;
-            beats_left_reg <= 8'd0;
+        // Which burst is next is known before it starts.
+        if (engine_free) begin
+            zero_reg <= state_reg == DRAIN;
+            awaddr_reg <= base_reg + next_offset;
+            awlen_reg <= next_len;
+            beats_left_reg <= next_len;
         end
-        if (start_object) begin
-            awaddr_reg <= base_reg + offset_reg;
-            awlen_reg <= OBJECT_LEN[7:0];
-            beats_left_reg <= OBJECT_LEN[7:0];
-        end
-        if (start_header) begin
-            awaddr_reg <= base_reg;
-            awlen_reg <= HEADER_LEN[7:0];
-            beats_left_reg <= HEADER_LEN[7:0];
-            data_reg <= header;
-        end
+        if (start_header) data_reg <= header;
         if (start_publish) data_reg[63:0] <= {frame_number_reg, 32'd0};
 
-        if (start && !response) outstanding_reg <= outstanding_reg + 8'd1;
-        if (!start && response) outstanding_reg <= outstanding_reg - 8'd1;
+        if (start && !response) begin
+            outstanding_reg <= outstanding_reg + 8'd1;
+            outstanding_none_reg <= 1'b0;
+            outstanding_most_reg <= outstanding_reg == OUTSTANDING_LIMIT[7:0] - 8'd1;
+        end
+        if (!start && response) begin
+            outstanding_reg <= outstanding_reg - 8'd1;
+            outstanding_none_reg <= outstanding_reg == 8'd1;
+            outstanding_most_reg <= 1'b0;
+        end
 
         if (rst) begin
             awvalid_reg <= 1'b0;
             wvalid_reg <= 1'b0;
             outstanding_reg <= 8'd0;
+            outstanding_none_reg <= 1'b1;
+            outstanding_most_reg <= 1'b0;
         end
     end
 
