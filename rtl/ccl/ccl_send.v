@@ -62,11 +62,11 @@ module ccl_send #(
             write_reg <= write_reg + 1'b1;
             first_reg <= found_end;
         end
-        read_reg      <= read_next;
+        read_reg <= read_next;
         if (pop) read_plus_1_reg <= read_plus_1_reg + 1'b1;
         m_axis_tvalid <= pop ? read_plus_1_reg != write_reg : read_reg != write_reg;
         if (found_start) first_reg <= 1'b1;
-        almost_full   <= count >= DEPTH - RESERVE;
+        almost_full <= count >= DEPTH - RESERVE;
         if (rst) begin
             write_reg       <= 0;
             read_reg        <= 0;

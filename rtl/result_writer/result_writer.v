@@ -238,16 +238,12 @@ module result_writer #(
         if (start_header) data_reg <= header;
         if (start_publish) data_reg[63:0] <= {frame_number_reg, 32'd0};
 
-        if (start && !response) begin
-            outstanding_reg <= outstanding_reg + 8'd1;
-            outstanding_none_reg <= 1'b0;
-            outstanding_most_reg <= outstanding_reg == OUTSTANDING_LIMIT[7:0] - 8'd1;
-        end
-        if (!start && response) begin
-            outstanding_reg <= outstanding_reg - 8'd1;
-            outstanding_none_reg <= outstanding_reg == 8'd1;
-            outstanding_most_reg <= 1'b0;
-        end
+        if (start && !response) outstanding_reg <= outstanding_reg + 8'd1;
+        if (!start && response) outstanding_reg <= outstanding_reg - 8'd1;
+        // No burst starts while the most are open, and none is answered while none is open.
+        outstanding_none_reg <= !start && (response ? outstanding_reg == 8'd1 : outstanding_none_reg);
+        outstanding_most_reg <= !response
+            && (start ? outstanding_reg == OUTSTANDING_LIMIT[7:0] - 8'd1 : outstanding_most_reg);
 
         if (rst) begin
             awvalid_reg <= 1'b0;
