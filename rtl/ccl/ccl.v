@@ -164,6 +164,7 @@ module ccl #(
         .clk(clk),
         .rst(rst),
         .run(run),
+        .beat(beat),
         .pixel_valid(accept),
         .pixel(s_axis_tdata[0] ^ label_zeros),
         .pixel_x(x),

@@ -16,7 +16,8 @@ module ccl_scan #(
     input wire rst,
 
     input wire              run,            // 0: nothing moves, no pixel comes
-    input wire              pixel_valid,
+    input wire              beat,           // a pixel comes
+    input wire              pixel_valid,    // and it is one of a good frame
     input wire              pixel,
     input wire [X_BITS-1:0] pixel_x,
     input wire              first_line,
@@ -43,8 +44,10 @@ module ccl_scan #(
     reg b_valid_reg, b_last_reg, b_end_reg, b_here_reg, b_above_reg, b_begin_reg;
     wire a_above = a_read_reg && !a_first_line_reg;
 
+    // Pixels of a bad frame may go into the memory: the first line of the next frame replaces what the others look at. So
+    // the memory need not wait for what says whether the frame is good.
     always @(posedge clk) begin
-        if (pixel_valid) begin
+        if (beat) begin
             a_read_reg <= line_above[pixel_x];
             line_above[pixel_x] <= pixel;
         end
@@ -65,7 +68,7 @@ module ccl_scan #(
     wire flush_run = flush_reg && open_runs;
 
     always @(posedge clk) begin
-        if (pixel_valid) begin
+        if (beat) begin
             a_start_reg      <= start_of_frame;
             a_last_reg       <= end_of_line;
             a_end_reg        <= end_of_frame;
