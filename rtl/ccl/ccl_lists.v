@@ -100,8 +100,8 @@ module ccl_lists #(
     // If p ends:
     wire pending_head_is_p_plus_1 = touch && !head_of_x ? y_next_is_p_plus_1 : x_head_is_p_plus_1;
     wire first_is_p_plus_1 = first_of_y ? y_first_is_p_plus_1 : x_active_reg ? x_first_is_p_plus_1 : c_is_p_plus_1;
-    wire head_above_is_p_plus_1 = touch ? pending_head_is_p_plus_1 : y_next_is_p_plus_1;
-    wire home_above_is_p_plus_1 = pending_above ? head_above_is_p_plus_1 : first_is_p_plus_1;
+    wire home_above_is_p_plus_1 =
+        !pending_above ? first_is_p_plus_1 : touch ? pending_head_is_p_plus_1 : y_next_is_p_plus_1;
     wire returns_above = settle && home_above_is_p_plus_1;
     // If it does not:
     wire x_first_or_c_is_p = x_active_reg ? x_first_reg == p_reg : c_is_p;
