@@ -21,8 +21,6 @@ module overlay_box (
     output wire               covers
 );
 
-  localparam [13:0] LINE = 14'd2;
-
   reg show_reg;
   reg signed [13:0] left_reg, top_reg, right_reg, bottom_reg;
 
@@ -32,8 +30,8 @@ module overlay_box (
   wire signed [14:0] from_right = right_reg - x;
   wire signed [14:0] from_bottom = bottom_reg - y;
   wire contains = !(from_left[14] || from_top[14] || from_right[14] || from_bottom[14]);
-  // Without the sign, as of what lies outside nobody asks.
-  wire at_edge = from_left[13:0] < LINE || from_top[13:0] < LINE || from_right[13:0] < LINE || from_bottom[13:0] < LINE;
+  // Less than 2, without the sign, as of what lies outside nobody asks.
+  wire at_edge = !(|from_left[13:1] && |from_top[13:1] && |from_right[13:1] && |from_bottom[13:1]);
 
   assign holds = show_reg && contains;
   assign covers = holds && at_edge;

@@ -42,8 +42,8 @@ module async_fifo #(
   wire [POINTER-1:0] rd_gray_in_wr;
 
   wire write = wr_en && !wr_full;
-  wire [POINTER-1:0] wr_pointer_next = wr_pointer_reg + {{DEPTH_LOG2{1'b0}}, write};
-  wire [POINTER-1:0] wr_gray_next = wr_pointer_next ^ (wr_pointer_next >> 1);
+  wire [POINTER-1:0] wr_pointer_plus_1 = wr_pointer_reg + 1'b1;
+  wire [POINTER-1:0] wr_gray_plus_1 = wr_pointer_plus_1 ^ (wr_pointer_plus_1 >> 1);
 
   // In gray code, "equal but for the top bit" shows as both top bits different.
   wire [POINTER-1:0] full_gray = {~rd_gray_in_wr[POINTER-1:POINTER-2], rd_gray_in_wr[POINTER-3:0]};
@@ -79,9 +79,12 @@ module async_fifo #(
       wr_gray_reg    <= {POINTER{1'b0}};
       wr_full        <= 1'b0;
     end else begin
-      wr_pointer_reg <= wr_pointer_next;
-      wr_gray_reg    <= wr_gray_next;
-      wr_full        <= wr_gray_next == full_gray;
+      if (write) begin
+        wr_pointer_reg <= wr_pointer_plus_1;
+        wr_gray_reg    <= wr_gray_plus_1;
+      end
+      // Both are compared before it is known whether a word comes.
+      wr_full <= write ? wr_gray_plus_1 == full_gray : wr_gray_reg == full_gray;
     end
   end
 
