@@ -31,7 +31,11 @@ module overlay_box (
   wire signed [14:0] from_bottom = bottom_reg - y;
   wire contains = !(from_left[14] || from_top[14] || from_right[14] || from_bottom[14]);
   // Less than 2, without the sign, as of what lies outside nobody asks.
-  wire at_edge = !(|from_left[13:1] && |from_top[13:1] && |from_right[13:1] && |from_bottom[13:1]);
+  wire near_left = from_left[13:0] >> 1 == 14'd0;
+  wire near_top = from_top[13:0] >> 1 == 14'd0;
+  wire near_right = from_right[13:0] >> 1 == 14'd0;
+  wire near_bottom = from_bottom[13:0] >> 1 == 14'd0;
+  wire at_edge = near_left || near_top || near_right || near_bottom;
 
   assign holds = show_reg && contains;
   assign covers = holds && at_edge;
