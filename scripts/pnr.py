@@ -10,7 +10,7 @@ nextpnr puts two with different write enables into one slice and then cannot rou
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from scripts.corepage import put_block, read_page
@@ -28,14 +28,14 @@ AIM = 1.05
 """What the placement is aimed at, times the goal."""
 
 
-def netlist(core: Core, ports: list[Port], folder: Path) -> tuple[Path, Path]:
-    """Netlist and pins of the design around a core, with the defaults of its parameters.
+def netlist(core: Core, ports: list[Port], parameters: Mapping[str, int], folder: Path) -> tuple[Path, Path]:
+    """Netlist and pins of the design around a core with these parameters.
 
     Raises:
         ValueError: Yosys refuses it.
     """
     verilog, pins, out = folder / "harness.v", folder / "pins.xdc", folder / "netlist.json"
-    verilog.write_text(harness(core, ports, {}))
+    verilog.write_text(harness(core, ports, parameters))
     pins.write_text(constraints(ports))
     sources = " ".join(str(source) for source in (*core.sources, verilog))
     script = "; ".join(
@@ -73,7 +73,7 @@ def measure(name: str, tool: Nextpnr, seeds: list[int]) -> tuple[dict[str, float
             ports = ports_of(core, {})
             names = {port.name for port in ports}
             goals = {clock: goal for clock, goal in goals_of(name).items() if clock in names}
-            files = netlist(core, ports, Path(folder))
+            files = netlist(core, ports, {}, Path(folder))
             aim = AIM * max(goals.values())
             worst = slowest([tool.route(*files, aim, seed) for seed in seeds], goals)
         except (NotRoutedError, ValueError) as error:

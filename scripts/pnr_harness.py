@@ -39,7 +39,7 @@ def ports_of(core: Core, parameters: Mapping[str, int]) -> list[Port]:
     Raises:
         ValueError: Yosys refuses the core.
     """
-    sources = [str(source.relative_to(ROOT)) for source in core.sources]
+    sources = [str(source) for source in core.sources]
     sets = "".join(f" -chparam {name} {value}" for name, value in parameters.items())
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "ports.json"

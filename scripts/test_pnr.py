@@ -106,7 +106,7 @@ def test_the_slowest_seed_counts_and_each_must_tell_of_each_clock() -> None:
 def test_what_is_bad(core: str, log: str, fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     clocks = CLOCKS if core == "video_out" else CLOCKS[:1]
     monkeypatch.setattr(pnr, "ports_of", lambda _core, _parameters: [Port(name, "input", 1) for name in clocks])
-    monkeypatch.setattr(pnr, "netlist", lambda _core, _ports, folder: (design(folder), folder))
+    monkeypatch.setattr(pnr, "netlist", lambda _core, _ports, _parameters, folder: (design(folder), folder))
     found = pnr.measure(core, fake(tmp_path, f"cat <<'E'\n{log}\nE"), [1, 2])[1]
     assert len(found) == bool(fault)
     assert fault in "".join(found)
