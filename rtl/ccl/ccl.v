@@ -16,7 +16,7 @@
 // Malformed      all unfinished components are forgotten in one clock; those already sent stay sent, no trailer follows, and
 //                tuser marks the first beat of the next frame. A frame cut off within 6 pixels is filtered with the
 //                cfg_min_area of the next one.
-// Limits         MAX_WIDTH and MAX_HEIGHT from 4. MOMENTS 0: only area and box; 1: and sums of x, y; 2: and of xx, yy, xy.
+// Limits         MAX_WIDTH and MAX_HEIGHT 4 to 32768. MOMENTS 0: only area and box; 1: and sums of x, y; 2: and of xx, yy, xy.
 //                AREA 0, with MOMENTS 0: only the box, and cfg_min_area is not looked at. What is not built is 0 in the beat.
 
 `default_nettype none

@@ -3,8 +3,8 @@
 // x*x, x*y and y*y of the scan position are kept by differences.
 //
 // `column_in` steps the scan position by one pixel; `restart_in` puts it to the top left pixel. The pixel counts if
-// `set_in`, and begins a new run if `begin_in`. `record` (format: ccl_merge) holds the run up to that pixel two cycles later, `line` is the pixel's line one cycle
-// later; after the last pixel it is the number of lines.
+// `set_in`, and begins a new run if `begin_in`. Two cycles later `record` (format: ccl_merge) holds the run up to that pixel and
+// `line` is the pixel's line; after the last pixel it is the number of lines.
 
 `default_nettype none
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns pixels into column events: with one line of memory and one pixel of look-ahead it sees where runs of the line above
-// and of the current line end, and whether they touch. One event a column, three clocks after the pixel to its right
-// (or after the pixel itself, at the end of a line); after the last line, one event a run that is still open below.
+// and of the current line end, and whether they touch. One event a column, two clocks after the pixel to its right (three
+// after the pixel itself, at the end of a line); after the last line, one event a run that is still open below.
 //
 // Of two runs that overlap, the one that ends first gives the event. `touch` means that the run that ends is 8-connected to the
 // next run of the other line that has not ended: both hold this column or the next one.

@@ -14,7 +14,7 @@ from cocotb.handle import HierarchyObject
 
 from golden.ccl import ccl
 from golden.generated.landing_regs import OBJECT_DTYPE
-from tb.ccl.tb_ccl import CLOSE_CLOCKS, LAST_LINE_CLOCKS, NEXT_CLOCKS, REPORT_AT_EDGE_CLOCKS, REPORT_CLOCKS
+from tb.ccl.tb_ccl import CLOSE_CLOCKS, LAST_LINE_CLOCKS, NEXT_CLOCKS, QUEUED, REPORT_AT_EDGE_CLOCKS, REPORT_CLOCKS
 from tb.common.contract import SentFrame, SizeLimits, sent_frames
 from tb.common.matrix import SCENES, STALLS, VideoCore, named, start
 from tb.common.patterns import structured_frames
@@ -215,7 +215,7 @@ async def reset_within_a_frame(dut: HierarchyObject, stall: str) -> None:
 
 @cocotb.test()
 async def blocked_output_loses_nothing(dut: HierarchyObject) -> None:
-    """The output stands still until the input has stood still; then all of it comes."""
+    """The output stands still until the input does, with as many waiting as the page says; then all of it comes."""
     rng = seeded()
     bench = await start(dut, rng, "full_speed")
     config = Config(bench, rng, vary=False)
@@ -229,6 +229,12 @@ async def blocked_output_loses_nothing(dut: HierarchyObject) -> None:
     await bench.cycles(8 * dots.size)
     assert not bench.source.empty, f"the input did not stall although {np.sum(dots)} objects wait; {where()}"
     assert not bench.sink.taken
+    accepted = [beat.cycle for beat in bench.input.taken]
+    stalled = accepted[-1] + 1
+    # What came after the stall is of a pixel that was taken: those behind it would have been due later.
+    accepted += [stalled + dots.size] * dots.size
+    waiting = sum(report_clock(place, accepted, dots) <= stalled for place in last_pixels(dots))
+    assert waiting == QUEUED, f"{waiting} components waited as the input stalled, expected {QUEUED}; {where()}"
     blocked[0] = False
     await send_and_check(bench, [], config, sent_frames(beats, CORE.limits)[0])
 
