@@ -54,13 +54,18 @@ def purpose(core: Core) -> str:
     return sentence[:1].upper() + sentence[1:]
 
 
+def parameters_of(core: Core) -> list[str]:
+    """Names of the parameters of a core's top module, sorted."""
+    return sorted(re.findall(r"^ +parameter +(\w+) *=", core.sources[-1].read_text("utf-8"), re.MULTILINE))
+
+
 def of_core(core: Core) -> dict:
-    """What the `.core` file of a core says: its options are the parameters that its tests set."""
+    """What the `.core` file of a core says: its options are the parameters of its top module."""
     folder = core.sources[-1].parent
     folders = {source.parent.name for source in core.sources} - {folder.name}
     if any("`include" in source.read_text("utf-8") for source in core.sources):
         folders.add("generated")
-    names, tested = sorted({name for config in core.configs for name in config}), core.configs[0]
+    names, tested = parameters_of(core), core.configs[0]
     build = {"toplevel": core.toplevel, "parameters": names}
     return {
         "name": vlnv(core.name),

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """What each feature and size costs: `python -m scripts.sweep [--core X] [--write]`.
 
-Maps the builds of `constraints/sweeps.toml` as `make synth` does and prints a table a core.
+Maps the builds of `constraints/sweeps.toml` as `make synth` does and prints a table a core. With --write these go into
+docs/area.md, and with them what the pages of all cores say of area and clock.
 """
 
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from scripts.corepage import block_of, read_page
 from scripts.errors import ArgumentParser, UserError, run_main
 from scripts.page_block import with_block
 from scripts.synth import Area, synthesise
-from tb.common.cores import ROOT, load_core
+from tb.common.cores import ROOT, core_names, load_core
 
 SWEEPS = ROOT / "constraints/sweeps.toml"
 PAGE = ROOT / "docs/area.md"
@@ -65,6 +67,23 @@ def table(rows: Sequence[str]) -> str:
     return "\n".join([f"| {' | '.join(HEAD)} |", "|" + "---|" * len(HEAD), *rows])
 
 
+def cores_table() -> str:
+    """Area and clock of every core with its defaults, as their pages have them.
+
+    Raises:
+        UserError: a page lacks one of the two.
+    """
+    rows = []
+    for name in core_names():
+        page = read_page(name)
+        lut, _, _, _, ff, *memories = block_of(name, page, "resources")[0].splitlines()[2].strip("| ").split(" | ")
+        clocks = [line.strip("| ").split(" | ") for line in block_of(name, page, "fmax")[0].splitlines()[2:]]
+        mhz = ", ".join(figure if clock == "`clk`" else f"{clock} {figure}" for clock, figure, _ in clocks)
+        rows.append(f"| [{name}](cores/{name}.md) | {' | '.join((lut, ff, *memories, mhz))} |")
+    head = ("core", "LUT", "FF", "BRAM36", "BRAM18", "DSP", "MHz")
+    return "\n".join([f"| {' | '.join(head)} |", "|" + "---|" * len(head), *rows])
+
+
 def main() -> int:
     """Entry point of `make sweep`."""
     parser = ArgumentParser(prog="make sweep", description=__doc__)
@@ -76,7 +95,7 @@ def main() -> int:
         rows.setdefault(build.core, []).append(row(build.what, area(build)))
         print(f"{build.core} {rows[build.core][-1]}", flush=True)
     if arguments.write:
-        text = PAGE.read_text(encoding="utf-8")
+        text = with_block(PAGE.read_text(encoding="utf-8"), "cores", cores_table(), "docs/area.md")
         for core, lines in rows.items():
             text = with_block(text, core, table(lines), "docs/area.md")
         PAGE.write_text(text, encoding="utf-8")

@@ -18,6 +18,12 @@ def test_the_page_has_every_build() -> None:
         assert core in core_names()
 
 
+def test_the_page_has_what_the_pages_of_the_cores_say() -> None:
+    written = find_block(sweep.PAGE.read_text(encoding="utf-8"), "cores", "docs/area.md")[0]
+    assert written == sweep.cores_table() + "\n", "run `python -m scripts.sweep --write`"
+    assert written.count("\n") == len(core_names()) + 2
+
+
 def test_parameters_count() -> None:
     """A wider line takes more flip-flops, and nothing else of the core changes."""
     narrow, wide = (area(Build("overlay", "", {"MAX_WIDTH": width})) for width in (64, 8191))
