@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Generated from rtl/display/display.rdl by python -m scripts.regmap. Do not edit.
 //
-// display_regs: AXI4-Lite registers of display. docs/display_registers.md is the reference.
+// display_regs: AXI4-Lite registers of display. Places are pixels from the top left corner of the frame, signed (two's complement) in 14 bits. docs/display_registers.md is the reference.
 //
 // Latency: read data one clock after the address is taken; write response two clocks after the later of address and
 // data. Throughput: one read and one write in two clocks, independent of each other.
