@@ -4,8 +4,6 @@
 
 # ---- Pins. The pins of the processor (DDR_*, FIXED_IO_*) come from its block design.
 
-set_property -dict {PACKAGE_PIN H16 IOSTANDARD LVCMOS33} [get_ports sysclk_125]
-
 set_property -dict {PACKAGE_PIN N18 IOSTANDARD TMDS_33} [get_ports hdmi_rx_clk_p]
 set_property -dict {PACKAGE_PIN P19 IOSTANDARD TMDS_33} [get_ports hdmi_rx_clk_n]
 set_property -dict {PACKAGE_PIN V20 IOSTANDARD TMDS_33} [get_ports {hdmi_rx_d_p[0]}]
@@ -34,8 +32,9 @@ set_property -dict {PACKAGE_PIN Y16 IOSTANDARD LVCMOS33 PULLUP TRUE} [get_ports 
 set_property -dict {PACKAGE_PIN Y14 IOSTANDARD LVCMOS33} [get_ports ground_txd]
 set_property -dict {PACKAGE_PIN T11 IOSTANDARD LVCMOS33 PULLUP TRUE} [get_ports ground_rxd]
 
-# Header IO0: the mode pin of the LiDAR, behind 1 kOhm.
+# Header IO0: the mode line of the LiDAR, direct. Header IO1: pulls it low through 1 kOhm.
 set_property -dict {PACKAGE_PIN T14 IOSTANDARD LVCMOS33} [get_ports lidar_mode]
+set_property -dict {PACKAGE_PIN U12 IOSTANDARD LVCMOS33} [get_ports lidar_pull]
 
 set_property -dict {PACKAGE_PIN D19 IOSTANDARD LVCMOS33} [get_ports {btn[0]}]
 set_property -dict {PACKAGE_PIN D20 IOSTANDARD LVCMOS33} [get_ports {btn[1]}]
@@ -50,7 +49,6 @@ set_property -dict {PACKAGE_PIN M14 IOSTANDARD LVCMOS33} [get_ports {led[3]}]
 
 # ---- Clocks.
 
-create_clock -name sysclk_125 -period 8.000 [get_ports sysclk_125]
 # 74.25 MHz, 1280x720 at 60 Hz. 1080p would be 6.734 and kClkRange 1 of both HDMI cells; nothing here is made for it.
 create_clock -name hdmi_rx_clk -period 13.468 [get_ports hdmi_rx_clk_p]
 
@@ -58,16 +56,19 @@ create_clock -name hdmi_rx_clk -period 13.468 [get_ports hdmi_rx_clk_p]
 create_clock -name clk -period 10.000 [get_pins {zynq_ps/ps7/inst/PS7_i/FCLKCLK[0]}]
 set_input_jitter clk 0.300
 
+# The MMCM's own clock, 74.25 MHz of clk, by a name that stays.
+create_generated_clock -name local_clk [get_pins local_mmcm/CLKOUT0]
+
 # Behind the switch: the camera's clock is pix_clk, the local one of the same period pix_clk_local.
 create_generated_clock -name pix_clk -divide_by 1 -source [get_pins pix_clk_switch/I0] [get_pins pix_clk_switch/O]
 create_generated_clock -name pix_clk_local -divide_by 1 -source [get_pins pix_clk_switch/I1] -add \
-    -master_clock [get_clocks -of_objects [get_pins local_mmcm/CLKOUT0]] [get_pins pix_clk_switch/O]
+    -master_clock [get_clocks local_clk] [get_pins pix_clk_switch/O]
 
 # Only one of the two is there at a time, and nothing goes from the one to the other.
 set_clock_groups -physically_exclusive -group [get_clocks pix_clk] -group [get_clocks pix_clk_local]
 set_clock_groups -asynchronous \
     -group [get_clocks -include_generated_clocks hdmi_rx_clk] \
-    -group [get_clocks -include_generated_clocks sysclk_125]
+    -group [get_clocks -include_generated_clocks local_clk]
 
 # 200 MHz of the receiver: a reset from clk and a lock to it, each with its synchroniser; the rest is inside of it.
 set_clock_groups -asynchronous -group [get_clocks clk_fpga_1] -group [get_clocks clk]
@@ -91,11 +92,11 @@ set_false_path -to [get_cells {reset/first_reg_reg reset/second_reg_reg}]
 
 # Transmitter: its reset is asynchronous, and its lock is waited for inside.
 set_false_path -from [get_cells board/switch/hold_reg] -to [get_clocks -include_generated_clocks hdmi_rx_clk]
-set_false_path -from [get_cells board/switch/hold_reg] -to [get_clocks -include_generated_clocks sysclk_125]
+set_false_path -from [get_cells board/switch/hold_reg] -to [get_clocks -include_generated_clocks local_clk]
 
 # Slow or asynchronous pins: serial lines, what a hand moves, what a monitor says, DDC.
 set_false_path -from [get_ports {autopilot_rxd ground_rxd btn[*] sw[*] hdmi_tx_hpdn lidar_mode hdmi_rx_scl hdmi_rx_sda}]
-set_false_path -to [get_ports {autopilot_txd ground_txd led[*] hdmi_rx_hpd lidar_mode hdmi_rx_scl hdmi_rx_sda}]
+set_false_path -to [get_ports {autopilot_txd ground_txd led[*] hdmi_rx_hpd lidar_pull hdmi_rx_scl hdmi_rx_sda}]
 
 # ---- Configuration.
 

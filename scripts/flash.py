@@ -20,7 +20,7 @@ WHERE = {
     "xsct": "source settings64.sh of Vitis 2023.2, or give TOOL=openocd",
     "openocd": "install Debian's openocd, or give TOOL=xsct",
 }
-OPENOCD = ("openocd", "-f", "interface/ftdi/digilent-hs1.cfg", "-f", "target/zynq_7000.cfg")
+OPENOCD = ("openocd", "-f", shown(SCRIPTS / "cable.tcl"), "-f", "target/zynq_7000.cfg")
 
 
 def entry_of(elf: Path) -> int:

@@ -41,7 +41,8 @@ def test_pins_of_the_page_are_those_of_the_constraints() -> None:
     for row in re.findall(r"^\| `\w+` \| .* \| (?:in|out) \|$", PAGE, re.MULTILINE):
         cells = [cell.strip() for cell in row.strip("|").split("|")]
         told[cells[0].strip("`")] = cells[3]
-    told["lidar_mode"] = re.search(r"`lidar_mode` \| (\w+) \|", PAGE)[1]
+    for name in ("lidar_mode", "lidar_pull"):
+        told[name] = re.search(rf"`{name}` \| (\w+) \|", PAGE)[1]
     assert told == pins()
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make flash` and `make sdcard` against stand-ins of their tools, on a PATH that has nothing else."""
 
+import re
 import shlex
 import struct
 import subprocess
@@ -78,7 +79,7 @@ def test_flash_takes_its_steps_in_order(
         assert first == f"xsct scripts/flash/xsct.tcl init {init}"
         assert last == f"xsct scripts/flash/xsct.tcl run {init} {files['elf']}"
     else:
-        begin = "openocd -f interface/ftdi/digilent-hs1.cfg -f target/zynq_7000.cfg -f scripts/flash/openocd.tcl -c"
+        begin = "openocd -f scripts/flash/cable.tcl -f target/zynq_7000.cfg -f scripts/flash/openocd.tcl -c"
         assert first == f"{begin} ps_init {{{init}}}"
         assert last == f"{begin} ps_run {{{init}}} {{{files['elf']}}} {ENTRY:#010x}"
     assert "The firmware runs." in capsys.readouterr().out
@@ -251,7 +252,7 @@ def test_sdcard_when_a_step_fails_or_leaves_nothing(
 # ---- What the tools run.
 
 RECORDED = ("connect", "targets", "rst", "dow", "con", "disconnect", "after", "init", "halt", "mww", "load_image")
-RECORDED += ("resume", "shutdown", "platform")
+RECORDED += ("resume", "shutdown", "platform", "exec", "adapter", "ftdi", "reset_config")
 
 
 def tcl(script: str, argv: list[str], body: str, tmp_path: Path) -> list[str]:
@@ -278,6 +279,28 @@ def test_xsct_resets_before_the_bitstream_and_starts_after_it(tmp_path: Path) ->
     assert "dow" not in " ".join(tcl("xsct.tcl", ["run", init], "", tmp_path))
     order = [last.index(line) for line in ("ps7_post_config", "rst -processor", "dow a.elf", "con")]
     assert order == sorted(order)
+
+
+@pytest.mark.parametrize("step", ["init", "run"])
+def test_xsct_leaves_the_cable_to_the_next_tool(step: str, tmp_path: Path) -> None:
+    """Its server is one of its own, and has ended before the script does."""
+    calls = tcl("xsct.tcl", [step, str(tmp_path / "ps7_init.tcl")], "", tmp_path)
+    (server,) = [call for call in calls if call.startswith("exec hw_server ")]
+    place, idle_s = re.fullmatch(r"exec hw_server -d -s (\S+) -p0 -I(\d+)", server).groups()
+    assert f"connect -url {place}" in calls
+    assert calls[-2] == "disconnect"
+    assert int(calls[-1].removeprefix("after ")) > 1000 * int(idle_s)
+
+
+def test_xsct_selects_the_processor_anew_after_its_reset(tmp_path: Path) -> None:
+    calls = tcl("xsct.tcl", ["init", str(tmp_path / "ps7_init.tcl")], "", tmp_path)
+    reset = calls.index("rst -system")
+    assert calls[reset + 1 : reset + 3] == ["after 3000", calls[reset - 1]]
+    assert calls[reset - 1].startswith("targets -set ")
+
+
+def test_the_cable_is_found_whatever_its_name(tmp_path: Path) -> None:
+    assert tcl("cable.tcl", [], "", tmp_path)[:2] == ["adapter driver ftdi", "ftdi vid_pid 0x0403 0x6010"]
 
 
 def test_openocd_answers_as_xsct_does(tmp_path: Path) -> None:

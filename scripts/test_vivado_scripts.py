@@ -88,9 +88,9 @@ FAULTS = {
     "pin_taken_twice": Fault(
         "arty_z7.xdc", "PACKAGE_PIN M14", "PACKAGE_PIN N16", "pin N16 is given to led[2] and to led[3]"
     ),
-    "no_standard": Fault("arty_z7.xdc", "H16 IOSTANDARD LVCMOS33", "H16", "port sysclk_125 has no IOSTANDARD"),
-    "no_pin": Fault("arty_z7.xdc", "PACKAGE_PIN H16 ", "", "port sysclk_125 has no PACKAGE_PIN"),
-    "standard": Fault("arty_z7.xdc", "H16 IOSTANDARD LVCMOS33", "H16 IOSTANDARD LVCMOS3", "cannot be 'LVCMOS3'"),
+    "no_standard": Fault("arty_z7.xdc", "T14 IOSTANDARD LVCMOS33", "T14", "port lidar_mode has no IOSTANDARD"),
+    "no_pin": Fault("arty_z7.xdc", "PACKAGE_PIN T14 ", "", "port lidar_mode has no PACKAGE_PIN"),
+    "standard": Fault("arty_z7.xdc", "T14 IOSTANDARD LVCMOS33", "T14 IOSTANDARD LVCMOS3", "cannot be 'LVCMOS3'"),
     "port_property": Fault(
         "arty_z7.xdc", "PULLUP TRUE} [get_ports autopilot", "PULL UP} [get_ports autopilot", "no property PULL"
     ),
@@ -237,12 +237,12 @@ def test_addresses_are_those_of_the_firmware(ground: Ground) -> None:
 
 
 SCHEMATIC = {
-    "sysclk_125": "SYSCLK",
     "autopilot_txd": "JA2",
     "autopilot_rxd": "JA3",
     "ground_txd": "JB2",
     "ground_rxd": "JB3",
     "lidar_mode": "CK_IO0",
+    "lidar_pull": "CK_IO1",
 }
 """Name in the schematic of each port that does not have the same name there."""
 

@@ -12,7 +12,7 @@ from scripts.rtl_facts import Facts
 from scripts.vivado import SCRIPTS, listed
 
 STANDIN = SCRIPTS / "standin.tcl"
-PRIMITIVES = ("BUFG", "BUFGCTRL", "IBUF", "IOBUF", "MMCME2_ADV")
+PRIMITIVES = ("BUFGCTRL", "IOBUF", "MMCME2_ADV", "OBUFT")
 """Black boxes of the vendor's own library, which need no source."""
 
 

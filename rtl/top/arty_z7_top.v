@@ -3,19 +3,18 @@
 // and rgb2dvi), processor (zynq_ps, a block design that scripts/vivado/zynq_ps.tcl makes), clocks and pins. All else is
 // board_video. docs/board.md says what is wired to which pin; constraints/arty_z7.xdc says it to Vivado.
 //
-// Clocks: clk, 100 MHz, and clk_200, from the processor; camera_clk from the receiver; local_clk, 74.25 MHz, from the
-// oscillator by an MMCM whose output is 125 / 5 * 37.125 / 12.5 MHz. The clock switch pix_clk_switch makes pix_clk of the
-// last two. The receiver is told to leave out its own global buffer (kAddBUFG), since the switch is one.
-// The MMCM of local_clk hangs behind a global buffer, so that it may lie anywhere: the one next to the oscillator's pin
-// belongs to the transmitter, whose clocks must lie next to the pins of the HDMI output.
+// Clocks: clk, 100 MHz, and clk_200, from the processor; camera_clk from the receiver; local_clk, 74.25 MHz, from clk by
+// an MMCM whose output is 100 / 5 * 37.125 / 10 MHz. The clock switch pix_clk_switch makes pix_clk of the last two. The
+// receiver is told to leave out its own global buffer (kAddBUFG), since the switch is one.
+// The 125 MHz at pin H16 are not used: they are the Ethernet chip's, which may stop them while no cable is plugged in.
+// clk is behind a global buffer, so that the MMCM may lie anywhere: the one next to the pins of the HDMI output belongs to
+// the transmitter. It is in reset until the processor has released the logic, since before that clk does not run.
 // Latency, throughput, border, rounding, overflow: those of board_video.
 // Limits: 1280x720 at 60 Hz; rgb2dvi and dvi2rgb are built for 60 to 120 MHz (kClkRange).
 
 `default_nettype none
 
 module arty_z7_top (
-    input wire sysclk_125,
-
     input  wire       hdmi_rx_clk_p,
     input  wire       hdmi_rx_clk_n,
     input  wire [2:0] hdmi_rx_d_p,
@@ -34,7 +33,8 @@ module arty_z7_top (
     output wire autopilot_txd,
     input  wire ground_rxd,
     output wire ground_txd,
-    inout  wire lidar_mode,
+    input  wire lidar_mode,
+    output wire lidar_pull,
 
     input  wire [3:0] btn,
     input  wire [1:0] sw,
@@ -251,8 +251,6 @@ module arty_z7_top (
 
   // ---- Clocks of pixels.
 
-  wire sysclk_pin;
-  wire sysclk;
   wire local_feedback;
   wire local_clk;
   wire local_locked;
@@ -263,32 +261,22 @@ module arty_z7_top (
   wire ignore_camera;
   wire ignore_local;
 
-  IBUF sysclk_input (
-      .I(sysclk_125),
-      .O(sysclk_pin)
-  );
-
-  BUFG sysclk_buffer (
-      .I(sysclk_pin),
-      .O(sysclk)
-  );
-
   MMCME2_ADV #(
       .BANDWIDTH       ("OPTIMIZED"),
       .COMPENSATION    ("INTERNAL"),
-      .CLKIN1_PERIOD   (8.0),
+      .CLKIN1_PERIOD   (10.0),
       .DIVCLK_DIVIDE   (5),
       .CLKFBOUT_MULT_F (37.125),
-      .CLKOUT0_DIVIDE_F(12.5)
+      .CLKOUT0_DIVIDE_F(10.0)
   ) local_mmcm (
-      .CLKIN1  (sysclk),
+      .CLKIN1  (clk),
       .CLKIN2  (1'b0),
       .CLKINSEL(1'b1),
       .CLKFBIN (local_feedback),
       .CLKFBOUT(local_feedback),
       .CLKOUT0 (local_clk),
       .LOCKED  (local_locked),
-      .RST     (1'b0),
+      .RST     (rst_reg),
       .PWRDWN  (1'b0),
       .DADDR   (7'd0),
       .DCLK    (1'b0),
@@ -364,16 +352,15 @@ module arty_z7_top (
   // A camera that sees the line rise reads what the receiver can do, and starts.
   assign hdmi_rx_hpd = !rst_reg;
 
-  // ---- LiDAR: its one pin behind 1 kOhm, pulled low or left alone, never driven high.
+  // ---- LiDAR. Its line comes in direct; another pin pulls it low through 1 kOhm or leaves it alone, and never drives it
+  // high. One pin for both would be deaf: while it pulls, it holds its own end of the resistor low.
 
   wire lidar_drive_low;
-  wire lidar_in;
 
-  IOBUF lidar_buffer (
-      .I (1'b0),
-      .O (lidar_in),
-      .T (!lidar_drive_low),
-      .IO(lidar_mode)
+  OBUFT lidar_buffer (
+      .I(1'b0),
+      .O(lidar_pull),
+      .T(!lidar_drive_low)
   );
 
   // ---- All that is not the vendor's.
@@ -475,7 +462,7 @@ module arty_z7_top (
       .m_axi_frames_rlast(axi_frames_rlast),
       .m_axi_frames_rvalid(axi_frames_rvalid),
       .m_axi_frames_rready(axi_frames_rready),
-      .lidar_in(lidar_in),
+      .lidar_in(lidar_mode),
       .lidar_drive_low(lidar_drive_low),
       .buttons(btn),
       .switches(sw),

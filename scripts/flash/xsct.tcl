@@ -5,12 +5,17 @@
 # Without a program the registers can be read and written by hand.
 
 lassign $argv step ps7_init elf
-connect
+# The server that `connect` starts by itself holds the cable for 20 s after the last user, and openFPGALoader is next: so
+# one of our own, which goes after 2 s.
+exec hw_server -d -s tcp:localhost:3150 -p0 -I2
+after 500
+connect -url tcp:localhost:3150
 targets -set -nocase -filter {name =~ "APU*"}
 if {$step eq "init"} {
     # A reset of the whole may clear the logic too, so it comes before the bitstream.
     rst -system
-    after 500
+    after 3000
+    targets -set -nocase -filter {name =~ "APU*"}
     source $ps7_init
     ps7_init
 } else {
@@ -25,3 +30,4 @@ if {$step eq "init"} {
     }
 }
 disconnect
+after 4000

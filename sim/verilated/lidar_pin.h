@@ -4,7 +4,7 @@
 // While the host holds the pin low the sensor measures continuously: it thinks
 // for ACQUISITION_US and then drives the pin high for 1 us a millimetre. Without
 // a return (0 mm) the pin stays low. The host's 1 kOhm never wins against the
-// sensor's driver; with nobody driving, the board's pull-down holds the pin low.
+// sensor's driver; with nobody driving, the level is taken for low.
 #pragma once
 
 #include <cstdint>

@@ -92,6 +92,16 @@ def test_nothing_of_the_board_is_left_open(modules: dict[str, dict]) -> None:
             assert set(ports) == set(cell["connections"]), f"{name}.{cell_name}"
 
 
+def test_the_lidar_is_heard_at_a_pin_that_the_board_does_not_pull(modules: dict[str, dict]) -> None:
+    """The core pulls while it measures: a pin that does both reads its own end of the resistor."""
+    top = modules[TOP]
+    assert {name: top["ports"][name]["direction"] for name in ("lidar_mode", "lidar_pull")} == {
+        "lidar_mode": "input",
+        "lidar_pull": "output",
+    }
+    assert top["cells"]["board"]["connections"]["lidar_in"] == top["ports"]["lidar_mode"]["bits"]
+
+
 def test_a_core_that_is_missing_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     table = tmp_path / "board.toml"
     table.write_text('part = "x"\ntoplevel = "y"\ncores = ["rgb2gray", "nonsense"]\nsources = []\nconstraints = []\n')
