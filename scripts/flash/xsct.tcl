@@ -5,8 +5,8 @@
 # Without a program the registers can be read and written by hand.
 
 lassign $argv step ps7_init elf
-# The server that `connect` starts by itself holds the cable for 20 s after the last user, and openFPGALoader is next: so
-# one of our own, which goes after 2 s.
+# The server that `connect` starts by itself holds the cable for 20 s after the last user, and openFPGALoader is next:
+# so one of our own, which goes after 2 s.
 exec hw_server -d -s tcp:localhost:3150 -p0 -I2
 after 500
 connect -url tcp:localhost:3150
