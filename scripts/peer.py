@@ -71,6 +71,7 @@ def main() -> int:
             return 0
         with tempfile.TemporaryDirectory() as folder:
             files = netlist(core, ports, parameters, Path(folder))
+            # What all of ours but the whole are placed for, so that the figures compare.
             aim = AIM * goals_of("ccl")["clk"]
             runs = [tool.route(*files, aim, seed) for seed in SEEDS]
     except (NotRoutedError, ValueError) as error:

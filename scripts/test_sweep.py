@@ -24,6 +24,15 @@ def test_the_page_has_what_the_pages_of_the_cores_say() -> None:
     assert written.count("\n") == len(core_names()) + 2
 
 
+def test_the_comparison_with_another_core_has_the_figures_of_the_sweep() -> None:
+    """Its row of ours is written by hand, since the other core is not here to be measured."""
+    text = sweep.PAGE.read_text(encoding="utf-8")
+    swept = find_block(text, "ccl", "docs/area.md")[0].splitlines()[2].strip("| ").split(" | ")
+    (row,) = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| `ccl` | ")]
+    lut, srl, lutram, ff, bram36, bram18, _ = swept[1:]
+    assert row[1:6] == [lut, srl, lutram, ff, str(int(bram36) + int(bram18) // 2)]
+
+
 def test_parameters_count() -> None:
     """A wider line takes more flip-flops, and nothing else of the core changes."""
     narrow, wide = (area(Build("overlay", "", {"MAX_WIDTH": width})) for width in (64, 8191))

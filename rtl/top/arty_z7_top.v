@@ -6,7 +6,7 @@
 // Clocks: clk, 100 MHz, and clk_200, from the processor; camera_clk from the receiver; local_clk, 74.25 MHz, from clk by
 // an MMCM whose output is 100 / 5 * 37.125 / 10 MHz. The clock switch pix_clk_switch makes pix_clk of the last two. The
 // receiver is told to leave out its own global buffer (kAddBUFG), since the switch is one.
-// The 125 MHz at pin H16 are not used: they are the Ethernet chip's, which may stop them while no cable is plugged in.
+// The 125 MHz at pin H16 are not used: on sister boards they come from the Ethernet chip, and stop while it has no cable.
 // clk is behind a global buffer, so that the MMCM may lie anywhere: the one next to the pins of the HDMI output belongs to
 // the transmitter. It is in reset until the processor has released the logic, since before that clk does not run.
 // Latency, throughput, border, rounding, overflow: those of board_video.
